@@ -1,0 +1,43 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/scene/mesh.h"
+#include "reconstruction/scene/mesh_index.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tarsus {
+
+/// Closed curve on one textured mesh, counter-clockwise seen from outside; the wound lies left.
+struct WoundOutline {
+  std::string mesh_sha256;           ///< the only mesh this outline is valid on
+  std::vector<SurfacePoint> clicks;  ///< what the clinician placed
+  std::vector<SurfacePoint> curve;   ///< joined by shortest paths, straight inside each triangle
+};
+
+struct OutlineOptions {
+  double max_snap_distance_mm = 5.0;  ///< a point farther from the surface is "off the mesh"
+};
+
+/// Snaps the points to the surface and joins them by shortest paths on it; orientation is set so
+/// that the smaller side lies inside.
+/// @param points_mm  at least 3, scan frame; the last joins the first
+/// @errors OutlineInvalid, OutlineOffSurface, OutlineSelfIntersects, SurfaceIncomplete (over a
+/// hole)
+[[nodiscard]] Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
+                                                  const MeshIndex& index,
+                                                  std::span<const Eigen::Vector3d> points_mm,
+                                                  const OutlineOptions& options = {});
+
+/// Reads an outline or skin curve file (design.md section 4); the points, scan frame [mm].
+/// @errors FileMissing, OutlineInvalid
+[[nodiscard]] Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(
+    const std::filesystem::path& path);
+/// @errors FileUnwritable, DiskFull
+[[nodiscard]] Expected<void> writeOutlinePoints(const std::filesystem::path& path,
+                                                std::span<const Eigen::Vector3d> points_mm);
+
+}  // namespace tarsus

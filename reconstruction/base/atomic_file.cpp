@@ -1,0 +1,130 @@
+#include "reconstruction/base/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> systemFailure(int error_number, const fs::path& path) {
+  const bool full = error_number == ENOSPC || error_number == EDQUOT;
+  return fail(full ? ErrorCode::DiskFull : ErrorCode::FileUnwritable,
+              path.string() + ": " + std::strerror(error_number));
+}
+
+Expected<void> writeAll(int file, std::span<const std::byte> bytes, const fs::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written < 0) {
+      return systemFailure(errno, path);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return {};
+}
+
+/// A rename survives a power cut only when the data reached the disk before it.
+Expected<void> flushToDisk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    return systemFailure(errno, path);
+  }
+  const int result = ::fsync(file);
+  const int error_number = errno;
+  ::close(file);
+  if (result != 0 && error_number != EINVAL) {  // EINVAL: a pipe or special file
+    return systemFailure(error_number, path);
+  }
+  return {};
+}
+
+Expected<void> makeParent(const fs::path& path) {
+  std::error_code error;
+  if (path.has_parent_path()) {
+    fs::create_directories(path.parent_path(), error);
+  }
+  return error ? Expected<void>(systemFailure(error.value(), path.parent_path()))
+               : Expected<void>();
+}
+
+}  // namespace
+
+Expected<void> writeFileAtomically(
+    const fs::path& path,
+    const std::function<Expected<void>(const fs::path& temporary)>& write,
+    Flush flush) {
+  if (auto made = makeParent(path); !made) {
+    return made;
+  }
+  const fs::path temporary =
+      path.parent_path() / ("." + path.stem().string() + ".part" + std::to_string(::getpid()) +
+                            path.extension().string());
+  std::error_code ignored;
+  auto written = write(temporary);
+  if (written && flush == Flush::ToDisk) {
+    written = flushToDisk(temporary);
+  }
+  if (!written) {
+    fs::remove(temporary, ignored);
+    return written;
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) {
+    fs::remove(temporary, ignored);
+    return systemFailure(error.value(), path);
+  }
+  return {};
+}
+
+Expected<void> writeFileAtomically(const fs::path& path,
+                                   std::span<const std::byte> bytes,
+                                   Flush flush) {
+  return writeFileAtomically(
+      path, [&](const fs::path& temporary) { return writeBytes(temporary, bytes); }, flush);
+}
+
+Expected<void> writeTextAtomically(const fs::path& path, std::string_view text) {
+  return writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
+
+Expected<void> writeBytes(const fs::path& path, std::span<const std::byte> bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) {
+    return systemFailure(errno, path);
+  }
+  auto written = writeAll(file, bytes, path);
+  if (::close(file) != 0 && written) {
+    return systemFailure(errno, path);
+  }
+  return written;
+}
+
+Expected<std::string> readTextFile(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    return fail(ErrorCode::FileMissing, path.string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.good() && !file.eof()) {
+    return fail(ErrorCode::FileUnreadable, path.string());
+  }
+  if (!file.is_open()) {
+    return fail(ErrorCode::FileUnreadable, path.string());
+  }
+  return text;
+}
+
+}  // namespace tarsus

@@ -1,0 +1,121 @@
+#include "reconstruction/base/error.h"
+
+#include "reconstruction/base/require.h"
+
+#include <array>
+
+namespace tarsus {
+namespace {
+
+struct Entry {
+  ErrorCode code;
+  std::string_view name;
+  std::string_view sentence;
+};
+
+/// One table for the window and the command line.
+constexpr std::array kEntries{
+    Entry{ErrorCode::Cancelled, "cancelled", "Stopped as you asked; nothing was changed."},
+    Entry{ErrorCode::BadOption,
+          "bad_option",
+          "An option has a value that cannot be used; correct it and try again."},
+    Entry{
+        ErrorCode::FileMissing, "file_missing", "A file or folder was not found; check the path."},
+    Entry{ErrorCode::FileUnreadable,
+          "file_unreadable",
+          "A file could not be read; check that it is whole and that you may open it."},
+    Entry{ErrorCode::FileUnwritable,
+          "file_unwritable",
+          "A file could not be written; check the folder and your rights in it."},
+    Entry{ErrorCode::DiskFull,
+          "disk_full",
+          "The disk is full; free some space and try again. Nothing was left half-written."},
+    Entry{ErrorCode::CameraFactsMissing,
+          "camera_facts_missing",
+          "The scan does not say how its camera sees; put a camera.json into the scan folder or "
+          "give --intrinsics fx,fy,cx,cy and --depth-scale."},
+    Entry{ErrorCode::CameraFactsInvalid,
+          "camera_facts_invalid",
+          "The camera's description cannot be used; correct camera.json or give --intrinsics "
+          "fx,fy,cx,cy and --depth-scale."},
+    Entry{ErrorCode::DepthFormatWrong,
+          "depth_format_wrong",
+          "Depth images must be PNG files with one 16-bit channel; export the scan again as 16-bit "
+          "depth."},
+    Entry{ErrorCode::DepthUnitImplausible,
+          "depth_unit_implausible",
+          "The depths do not lie between 0.15 m and 2 m, so the depth unit is probably wrong; give "
+          "the right one with --depth-scale (units per metre)."},
+    Entry{ErrorCode::ScanEmpty,
+          "scan_empty",
+          "The scan holds no usable frame; check that its depth images are there, or scan again."},
+    Entry{ErrorCode::TrajectoryInvalid,
+          "trajectory_invalid",
+          "The trajectory cannot be used; it must be a TUM file (t tx ty tz qx qy qz qw, metres) "
+          "with the times of this scan."},
+    Entry{ErrorCode::TrackingLost,
+          "tracking_lost",
+          "The camera's motion could not be followed; scan again, moving slowly and keeping the "
+          "foot in view at 30 to 50 cm."},
+    Entry{ErrorCode::SurfaceEmpty,
+          "surface_empty",
+          "No surface came out of the scan; scan again with the foot 30 to 50 cm from the camera."},
+    Entry{ErrorCode::MeshInvalid,
+          "mesh_invalid",
+          "The model cannot be used; give a triangle mesh as PLY or OBJ, in millimetres."},
+    Entry{ErrorCode::SurfaceIncomplete,
+          "surface_incomplete",
+          "The surface has a gap where it is needed; scan that place again."},
+    Entry{ErrorCode::KeyframesMissing,
+          "keyframes_missing",
+          "No colour picture could be used for the texture; scan again with more light and slower "
+          "motion."},
+    Entry{ErrorCode::OutlineInvalid,
+          "outline_invalid",
+          "The outline cannot be used; it needs at least three different points around the wound, "
+          "in the scan frame and in mm."},
+    Entry{ErrorCode::OutlineOffSurface,
+          "outline_off_surface",
+          "The outline does not lie on this model; check that model and outline belong together "
+          "(same scan, mm)."},
+    Entry{ErrorCode::OutlineSelfIntersects,
+          "outline_self_intersects",
+          "The outline crosses itself; move its points so that it runs once around the wound."},
+    Entry{ErrorCode::SkinCurveInvalid,
+          "skin_curve_invalid",
+          "The skin curve must run around the wound outline without touching it; draw it on "
+          "healthy skin outside."},
+    Entry{ErrorCode::ReferenceSkinFailed,
+          "reference_skin_failed",
+          "The healthy skin could not be rebuilt over the wound; move the skin curve onto smooth "
+          "skin with more margin."},
+    Entry{ErrorCode::FontMissing,
+          "font_missing",
+          "The report's font was not found; install the package fonts-noto-core."},
+};
+
+const Entry& entryOf(ErrorCode code) {
+  for (const Entry& entry : kEntries) {
+    if (entry.code == code) {
+      return entry;
+    }
+  }
+  TARSUS_REQUIRE(false, "every error code has an entry");
+  return kEntries.front();
+}
+
+}  // namespace
+
+std::string_view codeName(ErrorCode code) { return entryOf(code).name; }
+
+std::string_view codeSentence(ErrorCode code) { return entryOf(code).sentence; }
+
+std::string describe(const Error& error) {
+  std::string text(codeSentence(error.code));
+  if (!error.detail.empty()) {
+    text += " (" + error.detail + ")";
+  }
+  return text;
+}
+
+}  // namespace tarsus

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "reconstruction/base/job.h"
+#include "reconstruction/capture/frame_source.h"
+#include "reconstruction/scene/mesh.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tarsus {
+
+/// Which foot, by its ulcers; the table in capture/simulator/README.md gives their sizes.
+enum class FootCase { Forefoot, Heel, Lateral, Two };
+enum class CameraPath { Rig, Loop, Quick };
+enum class CameraLayout { Aligned, Offset };
+
+struct SimulatorOptions {
+  FootCase foot = FootCase::Forefoot;
+  CameraPath path = CameraPath::Rig;
+  CameraLayout layout = CameraLayout::Aligned;
+  int frames = 600;  ///< over the same 20 s motion: fewer frames step further
+  std::uint64_t seed = 1;
+  double noise = 1.0;          ///< 0: exact depth and colour; 1: SR300 class
+  double jitter_mm = 0.0;      ///< hand shake added to the rig's motion, standard deviation
+  std::filesystem::path mesh;  ///< a closed foot mesh (OBJ, metres or mm) instead of our own
+};
+
+/// What a simulated ulcer really measures, from the dense mesh; same definitions and names as
+/// measurement.json (clinical.md section 2).
+struct WoundTruth {
+  std::string site;
+  double opening_area_mm2 = 0.0;
+  double bed_area_mm2 = 0.0;
+  double projected_area_mm2 = 0.0;
+  double perimeter_mm = 0.0;
+  double volume_mm3 = 0.0;
+  double mean_depth_mm = 0.0;
+  double max_depth_mm = 0.0;
+  double length_mm = 0.0;
+  double width_mm = 0.0;
+  double length_clock_mm = 0.0;
+  double width_clock_mm = 0.0;
+  double opening_area_second_way_mm2 = 0.0;  ///< by ray grid; must agree within 0.5 %
+  double volume_second_way_mm3 = 0.0;
+  std::vector<Eigen::Vector3d> outline_mm;     ///< C, dense closed polyline on the true surface
+  std::vector<Eigen::Vector3d> skin_curve_mm;  ///< K, 2 mm outside C along the surface
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+};
+
+/// A foot, its support and background, before any camera; scan frame (first camera = identity).
+struct SimulatedScene {
+  TexturedMesh foot;  ///< with the ulcers; what a perfect scan would give
+  TriangleMesh
+      intact_foot;  ///< same faces and vertex order, ulcers filled: the true reference skin
+  TexturedMesh surroundings;
+  std::vector<WoundTruth> wounds;
+  Eigen::Vector3d heel_mm = Eigen::Vector3d::Zero();  ///< most posterior plantar point
+  Eigen::Vector3d toe_mm = Eigen::Vector3d::Zero();   ///< tip of the second toe
+  Trajectory trajectory;  ///< true poses of all frames, first = identity
+};
+
+/// @errors FileMissing, MeshInvalid (for options.mesh), BadOption
+[[nodiscard]] Expected<std::shared_ptr<const SimulatedScene>> buildScene(
+    const SimulatorOptions& options);
+
+/// The scan as a camera: renders on demand, so that it can serve as a live one.
+[[nodiscard]] std::unique_ptr<FrameSource> openSimulator(
+    std::shared_ptr<const SimulatedScene> scene, const SimulatorOptions& options);
+
+/// Writes the scan folder and truth/ (mesh.ply, outline_N.json, skin_N.json, truth.json).
+/// @errors those of buildScene, FileUnwritable, DiskFull, Cancelled
+[[nodiscard]] Expected<void> simulateScan(const std::filesystem::path& folder,
+                                          const SimulatorOptions& options,
+                                          const Job& job);
+
+}  // namespace tarsus

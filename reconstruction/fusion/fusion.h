@@ -1,0 +1,42 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+#include "reconstruction/capture/frame_source.h"
+#include "reconstruction/fusion/tsdf_volume.h"
+
+namespace tarsus {
+
+struct TrackingOptions {
+  double voxel_size_mm = 2.0;
+  TsdfWeighting weighting = TsdfWeighting::tracking();
+  double coarse_voxel_size_mm = 4.0;  ///< the first iterations run on a wide band, for large steps
+  double coarse_delta_mm = 28.0;
+  double lost_rmse_mm = 2.5;          ///< above: lost (prototype: <= 1.2 good, >= 3.4 lost)
+  double lost_inlier_fraction = 0.4;  ///< below: lost
+};
+
+struct TrackingResult {
+  Trajectory trajectory;  ///< one entry for each frame read; first tracked pose = identity
+  int frames_tracked = 0;
+  int frames_lost = 0;
+  int relocalisations = 0;
+  double rmse_mm = 0.0;  ///< root mean square of the residuals over all tracked frames
+};
+
+/// First stage: follows the camera by Gauss-Newton on the signed distance field,
+/// E = sum V(T v_p)^2, and fuses each tracked frame into it. A lost frame is never fused.
+/// Source: Bylow et al., RSS 2013; the paper's section "Camera Pose Estimation".
+/// @errors ScanEmpty, TrackingLost (fewer than half of the frames), Cancelled, those of the source
+[[nodiscard]] Expected<TrackingResult> trackScan(FrameSource& frames,
+                                                 const TrackingOptions& options,
+                                                 const Job& job);
+
+/// Second stage: fuses all tracked frames anew with a narrow weighting, for sharp edges.
+/// @errors ScanEmpty, Cancelled, those of the source
+[[nodiscard]] Expected<TsdfVolume> fuseScan(FrameSource& frames,
+                                            const Trajectory& trajectory,
+                                            const TsdfOptions& options,
+                                            const Job& job);
+
+}  // namespace tarsus

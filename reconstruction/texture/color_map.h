@@ -1,0 +1,40 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+#include "reconstruction/fusion/tsdf_volume.h"
+#include "reconstruction/texture/keyframes.h"
+
+#include <span>
+
+namespace tarsus {
+
+struct ColorMapOptions {
+  double vertex_spacing_px =
+      0.6;  ///< subdivide until edges are this part of a colour pixel's footprint
+  int max_vertices = 600'000;
+  double visibility_depth_mm = 3.0;  ///< farther behind the model's first surface: hidden
+  double max_view_angle_deg = 70.0;
+  int best_views = 6;  ///< views averaged per vertex
+};
+
+/// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
+/// marked `unseen` and filled from its neighbours, never black.
+/// @param surface  scan frame [mm]; need not be closed; its colours are the fallback
+/// @return the subdivided mesh; original vertices keep their positions to the last bit and come
+/// first
+/// @errors Cancelled, KeyframesMissing, SurfaceEmpty
+[[nodiscard]] Expected<TexturedMesh> colorSurface(const ExtractedSurface& surface,
+                                                  const RgbdCamera& camera,
+                                                  std::span<const Keyframe> keyframes,
+                                                  const ColorMapOptions& options,
+                                                  const Job& job);
+
+/// Photometric RMSE [grey levels] over seen vertices and keyframes: vertex colour against the
+/// keyframes that see it.
+[[nodiscard]] double photometricRmse(const TexturedMesh& model,
+                                     const RgbdCamera& camera,
+                                     std::span<const Keyframe> keyframes,
+                                     const ColorMapOptions& options);
+
+}  // namespace tarsus
