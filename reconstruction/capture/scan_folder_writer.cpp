@@ -1,0 +1,93 @@
+#include "reconstruction/base/atomic_file.h"
+#include "reconstruction/capture/camera_file.h"
+#include "reconstruction/capture/image_file.h"
+#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/trajectory_file.h"
+
+#include <cstdio>
+#include <map>
+#include <mutex>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string timeText(std::chrono::microseconds time) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f", static_cast<double>(time.count()) * 1e-6);
+  return text;
+}
+
+}  // namespace
+
+struct ScanFolderWriter::State {
+  fs::path folder;
+  RgbdCamera camera;
+  std::mutex mutex;                                  ///< guards `written`
+  std::map<int, std::chrono::microseconds> written;  ///< frame index -> time
+};
+
+ScanFolderWriter::ScanFolderWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ScanFolderWriter::ScanFolderWriter(ScanFolderWriter&&) noexcept = default;
+ScanFolderWriter& ScanFolderWriter::operator=(ScanFolderWriter&&) noexcept = default;
+ScanFolderWriter::~ScanFolderWriter() = default;
+
+Expected<ScanFolderWriter> ScanFolderWriter::create(const fs::path& folder,
+                                                    const RgbdCamera& camera) {
+  auto state = std::make_unique<State>();
+  state->folder = folder;
+  state->camera = camera;
+  if (auto written = writeCamera(folder / "camera.json", camera); !written) {
+    return tl::unexpected(written.error());
+  }
+  // The lists of an earlier scan here would name frames that are about to be replaced.
+  for (const char* list : {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt"}) {
+    std::error_code error;
+    fs::remove(folder / list, error);
+    if (error) {
+      return fail(ErrorCode::FileUnwritable, (folder / list).string() + ": " + error.message());
+    }
+  }
+  return ScanFolderWriter(std::move(state));
+}
+
+Expected<void> ScanFolderWriter::write(const RgbdFrame& frame) {
+  const std::string name = timeText(frame.timestamp);
+  auto written = writeDepthImage(state_->folder / "depth" / (name + ".png"),
+                                 frame.depth,
+                                 state_->camera.depth_units_per_m,
+                                 Flush::Later);
+  if (written && frame.color.width() > 0) {
+    written = writeColorImage(state_->folder / "rgb" / (name + ".jpg"), frame.color, Flush::Later);
+  }
+  if (written) {
+    const std::scoped_lock lock(state_->mutex);
+    state_->written.emplace(frame.index, frame.timestamp);
+  }
+  return written;
+}
+
+Expected<void> ScanFolderWriter::finish(const Trajectory& groundtruth) {
+  std::string rgb = "# timestamp filename\n";
+  std::string depth = rgb;
+  std::string pairs;
+  for (const auto& [index, timestamp] : state_->written) {
+    const std::string time = timeText(timestamp);
+    const std::string rgb_entry = time + " rgb/" + time + ".jpg";
+    const std::string depth_entry = time + " depth/" + time + ".png";
+    rgb += rgb_entry + "\n";
+    depth += depth_entry + "\n";
+    pairs += rgb_entry + " " + depth_entry + "\n";
+  }
+  const fs::path& folder = state_->folder;
+  auto written = writeTextAtomically(folder / "rgb.txt", rgb);
+  written = written ? writeTextAtomically(folder / "associations.txt", pairs) : written;
+  if (written && !groundtruth.empty()) {
+    written = writeTrajectory(folder / "groundtruth.txt", groundtruth);
+  }
+  // depth.txt comes last: a folder without it is not a scan yet.
+  return written ? writeTextAtomically(folder / "depth.txt", depth) : written;
+}
+
+}  // namespace tarsus
