@@ -38,6 +38,10 @@ class MeshIndex {
   void castRays(const Eigen::Vector3f& origin,
                 std::span<const Eigen::Vector3f> directions,
                 std::span<RayHit> hits) const;
+  /// The same for many neighbouring origins along one direction (a picture without perspective).
+  void castParallelRays(std::span<const Eigen::Vector3f> origins,
+                        const Eigen::Vector3f& direction,
+                        std::span<RayHit> hits) const;
   /// Nearest point on the mesh within max_distance_mm; computed in double from the float vertices.
   [[nodiscard]] std::optional<NearestPoint> nearest(const Eigen::Vector3d& p,
                                                     double max_distance_mm) const;
