@@ -16,9 +16,9 @@ namespace {
 // Our own choices, by eye: a calm grey close to skin in lightness, light that comes from the
 // viewer and, for relief, from above on the left, as maps and radiographs have it.
 constexpr Rgb8 kGreySkin{196, 192, 188};
-constexpr double kAmbient = 0.16;
-constexpr double kHeadlight = 0.46;
-constexpr double kKeyLight = 0.46;
+constexpr double kAmbient = 0.25;
+constexpr double kHeadlight = 0.45;
+constexpr double kKeyLight = 0.40;
 constexpr double kBackFace = 0.45;  ///< the inside of a surface is drawn this much darker
 constexpr double kWholeMargin = 1.06;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace tarsus {
 namespace {
@@ -15,17 +16,29 @@ double nearestOnSegment(const Eigen::Vector3d& from,
   return length_squared > 0.0 ? std::clamp((p - from).dot(along) / length_squared, 0.0, 1.0) : 0.0;
 }
 
-Eigen::Vector3d nearestOnEdges(const Triangle& t, const Eigen::Vector3d& p) {
-  const double ab = nearestOnSegment(t.a, t.b, p);
-  const double bc = nearestOnSegment(t.b, t.c, p);
-  const double ca = nearestOnSegment(t.c, t.a, p);
-  const std::array<Eigen::Vector3d, 3> candidates{Eigen::Vector3d(1.0 - ab, ab, 0.0),
-                                                  Eigen::Vector3d(0.0, 1.0 - bc, bc),
-                                                  Eigen::Vector3d(ca, 0.0, 1.0 - ca)};
-  return *std::min_element(
-      candidates.begin(), candidates.end(), [&](const auto& left, const auto& right) {
-        return (t.at(left) - p).squaredNorm() < (t.at(right) - p).squaredNorm();
-      });
+/// The nearest point of those edges that `wanted` names: ab, bc, ca.
+Eigen::Vector3d nearestOnEdges(const Triangle& t,
+                               const Eigen::Vector3d& p,
+                               const std::array<bool, 3>& wanted) {
+  const std::array<const Eigen::Vector3d*, 3> corners{&t.a, &t.b, &t.c};
+  Eigen::Vector3d best = Eigen::Vector3d::UnitX();
+  double best_squared = std::numeric_limits<double>::infinity();
+  for (std::size_t from = 0; from < 3; ++from) {
+    const std::size_t to = (from + 1) % 3;
+    if (!wanted[from]) {
+      continue;
+    }
+    const double s = nearestOnSegment(*corners[from], *corners[to], p);
+    const Eigen::Vector3d point = *corners[from] + s * (*corners[to] - *corners[from]);
+    const double squared = (point - p).squaredNorm();
+    if (squared < best_squared) {
+      best_squared = squared;
+      best.setZero();
+      best[static_cast<int>(from)] = 1.0 - s;
+      best[static_cast<int>(to)] = s;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -39,13 +52,14 @@ Eigen::Vector3d nearestOnTriangle(const Triangle& t, const Eigen::Vector3d& p) {
   const double v = ap.cross(ac).dot(normal);
   const double w = ab.cross(ap).dot(normal);
   const double u = area_squared - v - w;
-  if (area_squared > 0.0 && u >= 0.0 && v >= 0.0 && w >= 0.0) {
-    const Eigen::Vector3d inside = Eigen::Vector3d(u, v, w) / area_squared;
-    if (inside.allFinite()) {
-      return inside;
-    }
+  if (!(area_squared > 0.0)) {
+    return nearestOnEdges(t, p, {true, true, true});
   }
-  return nearestOnEdges(t, p);
+  if (u >= 0.0 && v >= 0.0 && w >= 0.0) {
+    return Eigen::Vector3d(u, v, w) / area_squared;
+  }
+  // The nearest point lies on an edge that has p on its outer side, or at an end of one.
+  return nearestOnEdges(t, p, {w < 0.0, u < 0.0, v < 0.0});
 }
 
 }  // namespace tarsus
