@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 namespace tarsus {
 namespace {
@@ -34,7 +36,8 @@ Expected<void> writeAll(int file, std::span<const std::byte> bytes, const fs::pa
   return {};
 }
 
-/// A rename survives a power cut only when the data reached the disk before it.
+/// A rename survives a power cut only when the data reached the disk before it, and the folder
+/// that names it after it.
 Expected<void> flushToDisk(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
@@ -58,6 +61,21 @@ Expected<void> makeParent(const fs::path& path) {
                : Expected<void>();
 }
 
+/// Removes the temporary file however the write ends; after the rename there is none.
+class Remover {
+ public:
+  explicit Remover(fs::path path) : path_(std::move(path)) {}
+  Remover(const Remover&) = delete;
+  Remover& operator=(const Remover&) = delete;
+  ~Remover() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+
+ private:
+  fs::path path_;
+};
+
 }  // namespace
 
 Expected<void> writeFileAtomically(
@@ -70,20 +88,22 @@ Expected<void> writeFileAtomically(
   const fs::path temporary =
       path.parent_path() / ("." + path.stem().string() + ".part" + std::to_string(::getpid()) +
                             path.extension().string());
-  std::error_code ignored;
+  const Remover remover(temporary);
   auto written = write(temporary);
   if (written && flush == Flush::ToDisk) {
     written = flushToDisk(temporary);
   }
   if (!written) {
-    fs::remove(temporary, ignored);
     return written;
   }
   std::error_code error;
   fs::rename(temporary, path, error);
   if (error) {
-    fs::remove(temporary, ignored);
     return systemFailure(error.value(), path);
+  }
+  if (flush == Flush::ToDisk) {
+    // Not every file system can flush a folder; the file itself is whole in any case.
+    std::ignore = flushToDisk(path.has_parent_path() ? path.parent_path() : fs::path("."));
   }
   return {};
 }
@@ -116,15 +136,18 @@ Expected<std::string> readTextFile(const fs::path& path) {
   if (!fs::exists(path, error)) {
     return fail(ErrorCode::FileMissing, path.string());
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.good() && !file.eof()) {
-    return fail(ErrorCode::FileUnreadable, path.string());
+  if (fs::is_directory(path, error)) {  // libstdc++ opens a folder and then throws on reading
+    return fail(ErrorCode::FileUnreadable, path.string() + " is a folder");
   }
+  std::ifstream file(path, std::ios::binary);
   if (!file.is_open()) {
     return fail(ErrorCode::FileUnreadable, path.string());
   }
-  return text;
+  try {
+    return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  } catch (const std::ios_base::failure&) {
+    return fail(ErrorCode::FileUnreadable, path.string());
+  }
 }
 
 }  // namespace tarsus
