@@ -1,0 +1,66 @@
+#include "reconstruction/capture/camera_file.h"
+
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace tarsus {
+namespace {
+
+constexpr const char* kWhole = R"({
+ "depth": {"width": 640, "height": 480, "fx": 600, "fy": 601, "cx": 320, "cy": 240,
+           "distortion": [0.1, -0.2, 0.001, 0.002, 0.05]},
+ "color": {"width": 1920, "height": 1080, "fx": 1400, "fy": 1401, "cx": 960, "cy": 540},
+ "depth_scale": 8000, "fps": 60, "firmware": {"kept": "ignored"},
+ "color_from_depth": [[1,0,0,0.0256],[0,1,0,0],[0,0,1,-0.004],[0,0,0,1]]})";
+
+Expected<RgbdCamera> parse(const std::string& text) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "camera.json") << text;
+  return readCamera(folder.path() / "camera.json");
+}
+
+TEST(CameraFile, ReadsEveryFactInMillimetres) {
+  auto camera = parse(kWhole);
+  ASSERT_TRUE(camera) << describe(camera.error());
+  EXPECT_EQ(camera->depth.width, 640);
+  EXPECT_EQ(camera->depth.distortion[4], 0.05);
+  EXPECT_EQ(camera->color.fy_px, 1401.0);
+  EXPECT_NEAR(camera->color_from_depth.translation().x(), 25.6, 1e-12);
+  EXPECT_EQ(camera->depth_units_per_m, 8000.0);
+  EXPECT_EQ(camera->frames_per_s, 60.0);
+}
+
+TEST(CameraFile, ShortDistortionMeansTheRestIsZero) {
+  std::string text = kWhole;
+  text.replace(text.find("[0.1, -0.2, 0.001, 0.002, 0.05]"), 31, "[0.1, -0.2]");
+  auto camera = parse(text);
+  ASSERT_TRUE(camera) << describe(camera.error());
+  EXPECT_EQ(camera->depth.distortion[1], -0.2);
+  EXPECT_EQ(camera->depth.distortion[4], 0.0);
+}
+
+TEST(CameraFile, EachMissingFactIsNamed) {
+  for (const char* key : {"\"fx\"", "\"width\"", "\"depth_scale\"", "\"color\""}) {
+    std::string text = kWhole;
+    text.replace(text.find(key), 3, "\"zz");
+    auto camera = parse(text);
+    ASSERT_FALSE(camera) << key;
+    EXPECT_EQ(camera.error().code, ErrorCode::CameraFactsInvalid);
+    EXPECT_NE(camera.error().detail.find(std::string(key).substr(1, 2)), std::string::npos)
+        << camera.error().detail;
+  }
+}
+
+TEST(CameraFile, RefusesWhatIsNoObject) {
+  for (const char* text : {"", "[]", "3", "null", "{}", "{\"depth\":[1]}"}) {
+    auto camera = parse(text);
+    ASSERT_FALSE(camera) << text;
+    EXPECT_EQ(camera.error().code, ErrorCode::CameraFactsInvalid);
+  }
+}
+
+}  // namespace
+}  // namespace tarsus
