@@ -11,6 +11,8 @@
 
 namespace tarsus {
 
+struct DepthPlanes;
+
 /// Weighting of a signed distance d behind or before the surface.
 ///
 ///   w(d) = 1                            for |d| <  epsilon
@@ -69,11 +71,17 @@ class TsdfVolume {
   void integrate(const RgbdCamera& camera,
                  const RgbdFrame& frame,
                  const RigidTransform& scan_from_camera);
+  /// The same from a depth image made ready once (fusion/depth_planes.h); `color` may be empty.
+  void integrate(const RgbdCamera& camera,
+                 const DepthPlanes& planes,
+                 const ColorImage& color,
+                 const RigidTransform& scan_from_camera);
   /// Trilinear value and gradient; false where one of the 8 corners was never observed.
   [[nodiscard]] bool sample(const Eigen::Vector3f& p_scan, SdfSample& result) const;
   /// Marching cubes over the cells whose 8 corners all have at least `min_weight`.
   [[nodiscard]] ExtractedSurface extractSurface(float min_weight) const;
   [[nodiscard]] std::size_t memoryBytes() const;
+  [[nodiscard]] int blockCount() const;
 
  private:
   struct Grid;

@@ -1,0 +1,250 @@
+#include "reconstruction/fusion/align.h"
+
+#include "reconstruction/base/parallel.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tarsus {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int kPointsPerTask = 2048;
+/// Rotations are measured by how far they move a point this far from the centre.
+constexpr double kLever_mm = 100.0;
+/// A direction counts as fixed when the points' mean squared sensitivity along it (1 = all
+/// normals point that way) is above this. Ours.
+constexpr double kFreeDirection = 1e-3;
+constexpr double kLargestStep_mm = 30.0;
+
+/// What one pass over the points adds up.
+struct Sums {
+  Matrix6d hessian = Matrix6d::Zero();  ///< upper triangle
+  Vector6d gradient = Vector6d::Zero();
+  double weight = 0.0;         ///< of all points
+  double active_weight = 0.0;  ///< of those in the equations
+  double cost = 0.0;
+  double squares = 0.0;
+  int known = 0;
+  int inliers = 0;
+
+  void add(const Sums& other) {
+    hessian += other.hessian;
+    gradient += other.gradient;
+    weight += other.weight;
+    active_weight += other.active_weight;
+    cost += other.cost;
+    squares += other.squares;
+    known += other.known;
+    inliers += other.inliers;
+  }
+};
+
+/// 21 + 6 sums in float are exact enough for one task's points, and four times faster.
+struct TaskSums {
+  std::array<float, 21> hessian{};
+  Eigen::Matrix<float, 6, 1> gradient = Eigen::Matrix<float, 6, 1>::Zero();
+
+  void add(const Eigen::Matrix<float, 6, 1>& j, float residual, float weight) {
+    std::size_t k = 0;
+    for (int row = 0; row < 6; ++row) {
+      const float scaled = weight * j[row];
+      for (int column = row; column < 6; ++column) {
+        hessian[k++] += scaled * j[column];
+      }
+    }
+    gradient += (weight * residual) * j;
+  }
+  void addTo(Sums& sums) const {
+    std::size_t k = 0;
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) {
+        sums.hessian(row, column) += static_cast<double>(hessian[k++]);
+      }
+    }
+    sums.gradient += gradient.cast<double>();
+  }
+};
+
+class Aligner {
+ public:
+  Aligner(const TsdfVolume& field,
+          std::span<const AlignmentPoint> points,
+          const AlignmentOptions& options)
+      : field_(field), points_(points), options_(options) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const AlignmentPoint& point : points) {
+      sum += point.p_camera.cast<double>();
+    }
+    center_camera_ = sum / std::max<double>(1.0, static_cast<double>(points.size()));
+  }
+
+  AlignmentResult run(const RigidTransform& start) const {
+    RigidTransform pose = start;
+    Sums sums = evaluate(pose);
+    AlignmentResult best = describe(pose, sums);
+    for (int i = 0; i < options_.max_iterations && sums.known >= 6; ++i) {
+      int free_directions = 0;
+      const Vector6d step = solve(sums, free_directions);
+      const RigidTransform candidate = moved(pose, step);
+      sums = evaluate(candidate);
+      const AlignmentResult result = describe(candidate, sums);
+      const double length = stepLength(step);
+      if (result.cost_mm2 >= best.cost_mm2) {
+        // Small steps that gain nothing are the end; a large one that lost ground is taken back.
+        best.free_directions = free_directions;
+        break;
+      }
+      pose = candidate;
+      best = result;
+      best.free_directions = free_directions;
+      if (length < options_.stop_step_mm) {
+        break;
+      }
+    }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] Sums evaluate(const RigidTransform& pose) const {
+    const int count = static_cast<int>(points_.size());
+    const int tasks = (count + kPointsPerTask - 1) / kPointsPerTask;
+    std::vector<Sums> partial(static_cast<std::size_t>(tasks));
+    parallelFor(tasks, [&](int task) {
+      const auto first = static_cast<std::size_t>(task * kPointsPerTask);
+      const auto n = std::min<std::size_t>(kPointsPerTask, points_.size() - first);
+      partial[static_cast<std::size_t>(task)] = evaluateSome(pose, points_.subspan(first, n));
+    });
+    Sums total;
+    for (const Sums& sums : partial) {
+      total.add(sums);
+    }
+    return total;
+  }
+
+  [[nodiscard]] Sums evaluateSome(const RigidTransform& pose,
+                                  std::span<const AlignmentPoint> points) const {
+    const Eigen::Matrix3f rotation = pose.linear().cast<float>();
+    const Eigen::Vector3f translation = pose.translation().cast<float>();
+    const Eigen::Vector3f center = (pose * center_camera_).cast<float>();
+    const auto kernel = static_cast<float>(options_.kernel_mm);
+    const auto inlier = static_cast<float>(options_.inlier_mm);
+    constexpr auto kPerLever = static_cast<float>(1.0 / kLever_mm);
+    TaskSums equations;
+    Sums sums;
+    for (const AlignmentPoint& point : points) {
+      sums.weight += static_cast<double>(point.weight);
+      const Eigen::Vector3f p = rotation * point.p_camera + translation;
+      SdfSample sample;
+      if (!field_.sample(p, sample)) {
+        sums.cost += static_cast<double>(point.weight * kernel * kernel);
+        continue;
+      }
+      const float r = sample.distance_mm;
+      ++sums.known;
+      sums.inliers += std::abs(r) <= inlier ? 1 : 0;
+      sums.squares += static_cast<double>(r * r);
+      const float u = std::min(1.0F, r * r / (kernel * kernel));
+      const float rest = 1.0F - u;
+      sums.cost +=
+          static_cast<double>(point.weight * kernel * kernel * (1.0F - rest * rest * rest));
+      if (rest <= 0.0F) {
+        continue;
+      }
+      const float weight = point.weight * rest * rest;  // Tukey's biweight
+      Eigen::Matrix<float, 6, 1> j;
+      j.head<3>() = (p - center).cross(sample.gradient) * kPerLever;
+      j.tail<3>() = sample.gradient;
+      equations.add(j, r, weight);
+      sums.active_weight += static_cast<double>(weight);
+    }
+    equations.addTo(sums);
+    return sums;
+  }
+
+  [[nodiscard]] AlignmentResult describe(const RigidTransform& pose, const Sums& sums) const {
+    AlignmentResult result;
+    result.scan_from_camera = pose;
+    const double count = std::max<double>(1.0, static_cast<double>(points_.size()));
+    result.rmse_mm = sums.known > 0 ? std::sqrt(sums.squares / sums.known) : options_.kernel_mm;
+    result.inlier_fraction = static_cast<double>(sums.inliers) / count;
+    result.cost_mm2 = sums.weight > 0.0 ? sums.cost / sums.weight : 0.0;
+    return result;
+  }
+
+  /// Solves in the eigenvectors of the normal equations and leaves weak ones alone.
+  static Vector6d solve(const Sums& sums, int& free_directions) {
+    const Matrix6d hessian = sums.hessian.selfadjointView<Eigen::Upper>();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(hessian /
+                                                        std::max(sums.active_weight, 1e-9));
+    const Vector6d along =
+        eigen.eigenvectors().transpose() * (sums.gradient / std::max(sums.active_weight, 1e-9));
+    Vector6d step = Vector6d::Zero();
+    free_directions = 0;
+    for (int i = 0; i < 6; ++i) {
+      if (eigen.eigenvalues()[i] < kFreeDirection) {
+        ++free_directions;
+        continue;
+      }
+      step -= eigen.eigenvectors().col(i) * (along[i] / eigen.eigenvalues()[i]);
+    }
+    const double length = stepLength(step);
+    return length > kLargestStep_mm ? Vector6d(step * (kLargestStep_mm / length)) : step;
+  }
+
+  static double stepLength(const Vector6d& step) {
+    return step.head<3>().norm() + step.tail<3>().norm();
+  }
+
+  /// Rotates about the points' centre, then shifts: exp of the rotation, exact for any angle.
+  [[nodiscard]] RigidTransform moved(const RigidTransform& pose, const Vector6d& step) const {
+    const Eigen::Vector3d rotation = step.head<3>() / kLever_mm;
+    const double angle = rotation.norm();
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+    if (angle > 0.0) {
+      turn = Eigen::AngleAxisd(angle, rotation / angle);
+    }
+    const Eigen::Vector3d center = pose * center_camera_;
+    RigidTransform result = RigidTransform::Identity();
+    result.linear() = (turn * Eigen::Quaterniond(pose.linear())).normalized().toRotationMatrix();
+    result.translation() = center + step.tail<3>() + turn * (pose.translation() - center);
+    return result;
+  }
+
+  const TsdfVolume& field_;
+  std::span<const AlignmentPoint> points_;
+  AlignmentOptions options_;
+  Eigen::Vector3d center_camera_;
+};
+
+}  // namespace
+
+std::vector<AlignmentPoint> alignmentPoints(const DepthPlanes& planes, int stride) {
+  const Intrinsics& k = planes.intrinsics;
+  std::vector<AlignmentPoint> points;
+  for (int v = stride / 2; v < k.height; v += stride) {
+    for (int u = stride / 2; u < k.width; u += stride) {
+      const std::size_t i = planes.index(u, v);
+      if (planes.quality[i] <= 0.0F) {
+        continue;
+      }
+      const float z = planes.depth_mm[i];
+      const float noise = (0.15F + 0.0006F * z) / 0.36F;
+      points.push_back({k.ray(u, v).cast<float>() * z, planes.quality[i] / (noise * noise)});
+    }
+  }
+  return points;
+}
+
+AlignmentResult alignToField(const TsdfVolume& field,
+                             std::span<const AlignmentPoint> points,
+                             const RigidTransform& start,
+                             const AlignmentOptions& options) {
+  return Aligner(field, points, options).run(start);
+}
+
+}  // namespace tarsus

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "reconstruction/fusion/depth_planes.h"
+#include "reconstruction/fusion/tsdf_volume.h"
+
+#include <span>
+#include <vector>
+
+namespace tarsus {
+
+/// A measured point of one frame, weighted by how well the sensor knew it.
+struct AlignmentPoint {
+  Eigen::Vector3f p_camera = Eigen::Vector3f::Zero();
+  float weight = 1.0F;
+};
+
+struct AlignmentOptions {
+  int max_iterations = 8;
+  double kernel_mm = 9.0;     ///< Tukey's: residuals beyond count nothing
+  double inlier_mm = 2.5;     ///< what counts as inlier
+  double stop_step_mm = 0.1;  ///< ends when points 100 mm away move less
+};
+
+struct AlignmentResult {
+  RigidTransform scan_from_camera = RigidTransform::Identity();
+  double rmse_mm = 0.0;          ///< over all points where the field is known, none left out
+  double inlier_fraction = 0.0;  ///< of all points, those outside the field included
+  double cost_mm2 = 0.0;         ///< robust mean; points outside the field cost the most
+  int free_directions = 0;       ///< of the 6, how many the surface does not fix
+};
+
+/// Every stride-th trusted pixel of a frame; weight cos / sigma_z^2 with the coded-light noise of
+/// sigma_z = 0.15 + 0.6 z[m], 1 at 0.35 m.
+[[nodiscard]] std::vector<AlignmentPoint> alignmentPoints(const DepthPlanes& planes, int stride);
+
+/// Finds the pose that puts the points onto the zero level of the field: Gauss-Newton on
+/// E = sum w V(T p)^2 over SE(3). Directions that the surface leaves free are not moved.
+/// Source: Bylow et al., RSS 2013; the free directions: Zhang, Kaess and Singh, ICRA 2016.
+/// @param start  scan_from_camera to start from
+[[nodiscard]] AlignmentResult alignToField(const TsdfVolume& field,
+                                           std::span<const AlignmentPoint> points,
+                                           const RigidTransform& start,
+                                           const AlignmentOptions& options);
+
+}  // namespace tarsus

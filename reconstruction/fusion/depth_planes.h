@@ -1,0 +1,43 @@
+#pragma once
+
+#include "reconstruction/scene/frame.h"
+
+#include <vector>
+
+namespace tarsus {
+
+/// A depth image made ready for fusion: one tangent plane for each pixel that can be trusted.
+/// Pixels at depth discontinuities, where flying pixels live, and at grazing incidence have none.
+struct DepthPlanes {
+  /// n . x + offset = distance of x before the surface [mm], camera frame, n towards the camera.
+  struct Plane {
+    float nx = 0.0F;
+    float ny = 0.0F;
+    float nz = 0.0F;
+    float offset = 0.0F;
+  };
+  Intrinsics intrinsics;
+  std::vector<Plane> planes;    ///< row-major
+  std::vector<float> quality;   ///< cosine of the angle of incidence; 0 where there is no plane
+  std::vector<float> depth_mm;  ///< z of those pixels, as measured; 0 elsewhere
+  int valid_count = 0;
+
+  [[nodiscard]] std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(intrinsics.width) +
+           static_cast<std::size_t>(u);
+  }
+};
+
+struct DepthPlaneOptions {
+  double min_depth_mm = 100.0;
+  double max_depth_mm = 1500.0;
+  double max_incidence_deg = 75.0;  ///< beyond, a coded-light camera returns little but errors
+};
+
+/// Fits the planes over 5 x 5 pixels: least squares on 1/z, which is linear in the pixel on a
+/// plane, from pairs of opposite neighbours that continue the surface through the middle pixel.
+[[nodiscard]] DepthPlanes fitDepthPlanes(const Intrinsics& intrinsics,
+                                         const DepthImage& depth,
+                                         const DepthPlaneOptions& options);
+
+}  // namespace tarsus

@@ -1,0 +1,218 @@
+#include "reconstruction/fusion/scan_tracker.h"
+
+#include "reconstruction/fusion/align.h"
+#include "reconstruction/fusion/depth_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace tarsus {
+namespace {
+
+/// Fewer trusted pixels than this share of the image cannot hold a pose. Ours.
+constexpr double kLeastValidShare = 0.01;
+/// Poses kept to start from when all else fails, and how far apart they are.
+constexpr double kKeyframeDistance_mm = 40.0;
+constexpr double kKeyframeAngle_rad = 10.0 * std::numbers::pi / 180.0;
+constexpr std::size_t kMaxKeyframes = 64;
+constexpr std::size_t kKeyframesTried = 8;
+/// After being lost, a pose is believed only when it is better than the usual limits.
+constexpr double kReliefInlierFraction = 0.6;
+constexpr double kReliefRmseShare = 0.7;
+/// A surface that leaves more directions free than this (a plane: 3) does not hold the camera.
+constexpr int kMostFreeDirections = 2;
+
+TsdfWeighting coarseWeighting(const TrackingOptions& options) {
+  const double delta = options.coarse_delta_mm;
+  const double epsilon = std::min(6.0, 0.25 * delta);
+  const double fine_fall = options.weighting.delta_mm - options.weighting.epsilon_mm;
+  const double ratio = fine_fall / std::max(1.0, delta - epsilon);
+  return {.epsilon_mm = epsilon,
+          .delta_mm = delta,
+          .sigma_per_mm2 = options.weighting.sigma_per_mm2 * ratio * ratio};
+}
+
+TsdfOptions volumeOptions(double voxel_size_mm, const TsdfWeighting& weighting) {
+  TsdfOptions result;
+  result.voxel_size_mm = voxel_size_mm;
+  result.weighting = weighting;
+  result.with_color = false;
+  return result;
+}
+
+bool farApart(const RigidTransform& a, const RigidTransform& b) {
+  const RigidTransform difference = a.inverse() * b;
+  return difference.translation().norm() > kKeyframeDistance_mm ||
+         Eigen::AngleAxisd(difference.linear()).angle() > kKeyframeAngle_rad;
+}
+
+/// A frame's points at three densities.
+struct PointPyramid {
+  explicit PointPyramid(const DepthPlanes& planes)
+      : few(alignmentPoints(planes, 8)),
+        some(alignmentPoints(planes, 4)),
+        many(alignmentPoints(planes, 3)) {}
+  std::vector<AlignmentPoint> few, some, many;
+};
+
+}  // namespace
+
+struct ScanTracker::State {
+  State(const RgbdCamera& scan_camera, const TrackingOptions& tracking_options)
+      : camera(scan_camera),
+        options(tracking_options),
+        coarse(volumeOptions(tracking_options.coarse_voxel_size_mm,
+                             coarseWeighting(tracking_options))),
+        fine(volumeOptions(tracking_options.voxel_size_mm, tracking_options.weighting)) {}
+
+  RgbdCamera camera;
+  TrackingOptions options;
+  TsdfVolume coarse;
+  TsdfVolume fine;
+  std::optional<RigidTransform> last_pose;      ///< of the last tracked frame
+  std::optional<RigidTransform> previous_pose;  ///< of the frame before it, if that was tracked
+  std::vector<RigidTransform> keyframes;
+  bool lost = false;
+  int relocalisations = 0;
+
+  [[nodiscard]] AlignmentResult alignFrom(const PointPyramid& points,
+                                          const RigidTransform& start) const {
+    const double delta = options.weighting.delta_mm;
+    AlignmentResult result = alignToField(coarse,
+                                          points.few,
+                                          start,
+                                          {.max_iterations = 12,
+                                           .kernel_mm = options.coarse_delta_mm,
+                                           .inlier_mm = options.lost_rmse_mm,
+                                           .stop_step_mm = 0.5});
+    result = alignToField(fine,
+                          points.some,
+                          result.scan_from_camera,
+                          {.max_iterations = 6,
+                           .kernel_mm = delta,
+                           .inlier_mm = options.lost_rmse_mm,
+                           .stop_step_mm = 0.2});
+    return alignToField(fine,
+                        points.many,
+                        result.scan_from_camera,
+                        {.max_iterations = 4,
+                         .kernel_mm = std::clamp(3.0 * result.rmse_mm, 1.5, delta),
+                         .inlier_mm = options.lost_rmse_mm,
+                         .stop_step_mm = 0.02});
+  }
+
+  [[nodiscard]] bool believable(const AlignmentResult& result, bool strict) const {
+    const double rmse = options.lost_rmse_mm * (strict ? kReliefRmseShare : 1.0);
+    const double share = strict ? std::max(kReliefInlierFraction, options.lost_inlier_fraction)
+                                : options.lost_inlier_fraction;
+    return result.rmse_mm <= rmse && result.inlier_fraction >= share &&
+           result.free_directions <= kMostFreeDirections;
+  }
+
+  /// Predicted pose first, then the last one, then the nearest keyframes.
+  [[nodiscard]] std::vector<RigidTransform> starts() const {
+    std::vector<RigidTransform> result;
+    if (previous_pose && !lost) {
+      result.push_back(*last_pose * (previous_pose->inverse() * *last_pose));
+    }
+    result.push_back(*last_pose);
+    std::vector<RigidTransform> known = keyframes;
+    std::stable_sort(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+      return (a.translation() - last_pose->translation()).squaredNorm() <
+             (b.translation() - last_pose->translation()).squaredNorm();
+    });
+    known.resize(std::min(known.size(), kKeyframesTried));
+    result.insert(result.end(), known.begin(), known.end());
+    return result;
+  }
+
+  [[nodiscard]] AlignmentResult track(const PointPyramid& points) const {
+    AlignmentResult best;
+    bool first = true;
+    for (const RigidTransform& start : starts()) {
+      const AlignmentResult result = alignFrom(points, start);
+      // Only the first try of a frame that follows a tracked one may be believed at once.
+      if (believable(result, lost || !first)) {
+        return result;
+      }
+      if (first || result.inlier_fraction > best.inlier_fraction) {
+        best = result;
+      }
+      first = false;
+    }
+    best.inlier_fraction = std::min(best.inlier_fraction, options.lost_inlier_fraction);
+    best.rmse_mm = std::max(best.rmse_mm, options.lost_rmse_mm);
+    best.cost_mm2 = -1.0;  // lost
+    return best;
+  }
+
+  void fuse(const DepthPlanes& planes, const RigidTransform& pose) {
+    coarse.integrate(camera, planes, {}, pose);
+    fine.integrate(camera, planes, {}, pose);
+    const bool isNew = std::all_of(keyframes.begin(), keyframes.end(), [&](const auto& known) {
+      return farApart(known, pose);
+    });
+    if (isNew && keyframes.size() < kMaxKeyframes) {
+      keyframes.push_back(pose);
+    }
+  }
+
+  FramePose follow(const DepthPlanes& planes, FramePose pose) {
+    const AlignmentResult result = track(PointPyramid(planes));
+    pose.rmse_mm = result.rmse_mm;
+    pose.inlier_fraction = result.inlier_fraction;
+    if (result.cost_mm2 < 0.0) {
+      lost = true;
+      previous_pose.reset();
+      return pose;
+    }
+    relocalisations += lost ? 1 : 0;
+    previous_pose = lost ? std::nullopt : last_pose;
+    lost = false;
+    last_pose = result.scan_from_camera;
+    pose.scan_from_camera = result.scan_from_camera;
+    fuse(planes, result.scan_from_camera);
+    return pose;
+  }
+};
+
+ScanTracker::ScanTracker(const RgbdCamera& camera, const TrackingOptions& options)
+    : state_(std::make_unique<State>(camera, options)) {}
+ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
+ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
+ScanTracker::~ScanTracker() = default;
+
+FramePose ScanTracker::push(const RgbdFrame& frame) {
+  FramePose pose;
+  pose.frame_index = frame.index;
+  pose.timestamp = frame.timestamp;
+  const TsdfOptions& volume = state_->fine.options();
+  const DepthPlanes planes =
+      fitDepthPlanes(state_->camera.depth,
+                     frame.depth,
+                     {.min_depth_mm = volume.min_depth_mm, .max_depth_mm = volume.max_depth_mm});
+  const double share =
+      planes.valid_count / std::max(1.0, static_cast<double>(planes.quality.size()));
+  if (share < kLeastValidShare) {
+    state_->lost = state_->last_pose.has_value();
+    state_->previous_pose.reset();
+    return pose;
+  }
+  if (!state_->last_pose) {
+    state_->last_pose = RigidTransform::Identity();
+    pose.scan_from_camera = RigidTransform::Identity();
+    pose.inlier_fraction = 1.0;
+    state_->fuse(planes, RigidTransform::Identity());
+    return pose;
+  }
+  return state_->follow(planes, pose);
+}
+
+const TsdfVolume& ScanTracker::model() const { return state_->fine; }
+
+int ScanTracker::relocalisations() const { return state_->relocalisations; }
+
+}  // namespace tarsus

@@ -1,0 +1,167 @@
+#include "reconstruction/fusion/tsdf_volume.h"
+
+#include "reconstruction/base/parallel.h"
+#include "reconstruction/fusion/block_grid.h"
+#include "reconstruction/fusion/block_update.h"
+#include "reconstruction/fusion/depth_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tarsus {
+namespace {
+
+constexpr int kBlocksPerTask = 16;
+
+/// Blocks that the band around the frame's surface touches, in the order in which the image shows
+/// them first; each once.
+class BandBlocks {
+ public:
+  BandBlocks(BlockGrid& grid, std::vector<int>& last_frame, int frame)
+      : grid_(grid), last_frame_(last_frame), frame_(frame) {}
+
+  /// Every block that a cube around p reaches into.
+  void touch(const Eigen::Vector3f& p_scan, float half_width_mm) {
+    const float scale = 1.0F / (grid_.voxelSize() * static_cast<float>(kBlockSide));
+    const Eigen::Vector3f reach = Eigen::Vector3f::Constant(half_width_mm);
+    const Eigen::Vector3f low = (p_scan - reach) * scale;
+    const Eigen::Vector3f high = (p_scan + reach) * scale;
+    const Eigen::Vector3i first = low.array().floor().cast<int>();
+    const Eigen::Vector3i last = high.array().floor().cast<int>();
+    if (first == last && first == previous_) {
+      return;
+    }
+    for (int z = first.z(); z <= last.z(); ++z) {
+      for (int y = first.y(); y <= last.y(); ++y) {
+        for (int x = first.x(); x <= last.x(); ++x) {
+          add({x, y, z});
+        }
+      }
+    }
+    previous_ = last;
+  }
+  [[nodiscard]] const std::vector<int>& blocks() const { return blocks_; }
+
+ private:
+  void add(const Eigen::Vector3i& at) {
+    const int block = grid_.findOrAdd(at);
+    if (block < 0) {
+      return;
+    }
+    const auto i = static_cast<std::size_t>(block);
+    if (i >= last_frame_.size()) {
+      last_frame_.resize(i + 1, -1);
+    }
+    if (last_frame_[i] != frame_) {
+      last_frame_[i] = frame_;
+      blocks_.push_back(block);
+    }
+  }
+
+  BlockGrid& grid_;
+  std::vector<int>& last_frame_;
+  int frame_;
+  std::vector<int> blocks_;
+  Eigen::Vector3i previous_ = Eigen::Vector3i::Constant(1 << 28);
+};
+
+/// Walks a strided set of rays through the band of +-delta.
+void touchBand(BandBlocks& band,
+               const DepthPlanes& planes,
+               const RigidTransform& scan_from_camera,
+               const TsdfOptions& options) {
+  const Intrinsics& k = planes.intrinsics;
+  const auto delta = static_cast<float>(options.weighting.delta_mm);
+  const auto block_mm = static_cast<float>(options.voxel_size_mm) * kBlockSide;
+  // Rays a quarter block apart at the usual distance; the cube around each sample fills the rest.
+  const auto focal = static_cast<float>(std::min(k.fx_px, k.fy_px));
+  const int stride = std::clamp(static_cast<int>(block_mm * focal / (4.0F * 400.0F)), 1, 8);
+  const int steps = std::max(2, static_cast<int>(std::ceil(4.0F * delta / block_mm)));
+  const Eigen::Matrix3f rotation = scan_from_camera.linear().cast<float>();
+  const Eigen::Vector3f origin = scan_from_camera.translation().cast<float>();
+  for (int v = 0; v < k.height; v += stride) {
+    for (int u = 0; u < k.width; u += stride) {
+      const std::size_t i = planes.index(u, v);
+      if (planes.quality[i] <= 0.0F) {
+        continue;
+      }
+      const float z = planes.depth_mm[i];
+      const Eigen::Vector3f ray = rotation * k.ray(u, v).cast<float>();
+      const float length = ray.norm();
+      // Along an oblique ray the band is longer than across it.
+      const float reach = delta * std::min(2.0F, 1.0F / planes.quality[i]) / length;
+      const float half_width = 0.5F * static_cast<float>(stride) * z / focal;
+      for (int s = 0; s <= steps; ++s) {
+        const float at =
+            z + reach * (2.0F * static_cast<float>(s) / static_cast<float>(steps) - 1.0F);
+        band.touch(origin + at * ray, half_width);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double TsdfWeighting::weight(double distance_mm) const {
+  const double distance = std::abs(distance_mm);
+  if (distance < epsilon_mm) {
+    return 1.0;
+  }
+  if (!(distance <= delta_mm)) {
+    return 0.0;
+  }
+  const double beyond = distance - epsilon_mm;
+  return std::exp(-sigma_per_mm2 * beyond * beyond);
+}
+
+TsdfVolume::TsdfVolume(const TsdfOptions& options) : grid_(std::make_unique<Grid>(options)) {}
+TsdfVolume::TsdfVolume(TsdfVolume&&) noexcept = default;
+TsdfVolume& TsdfVolume::operator=(TsdfVolume&&) noexcept = default;
+TsdfVolume::~TsdfVolume() = default;
+
+const TsdfOptions& TsdfVolume::options() const { return grid_->options; }
+
+void TsdfVolume::integrate(const RgbdCamera& camera,
+                           const RgbdFrame& frame,
+                           const RigidTransform& scan_from_camera) {
+  const DepthPlanes planes = fitDepthPlanes(
+      camera.depth,
+      frame.depth,
+      {.min_depth_mm = options().min_depth_mm, .max_depth_mm = options().max_depth_mm});
+  integrate(camera, planes, frame.color, scan_from_camera);
+}
+
+void TsdfVolume::integrate(const RgbdCamera& camera,
+                           const DepthPlanes& planes,
+                           const ColorImage& color,
+                           const RigidTransform& scan_from_camera) {
+  BlockGrid& grid = grid_->blocks;
+  BandBlocks band(grid, grid_->last_frame_of_block, grid_->frames++);
+  touchBand(band, planes, scan_from_camera, grid_->options);
+  const std::vector<int>& blocks = band.blocks();
+  const bool with_color = grid.hasColor() && color.width() == camera.color.width &&
+                          color.height() == camera.color.height && color.width() > 0;
+  const BlockUpdate update(
+      camera, planes, with_color ? &color : nullptr, scan_from_camera.inverse(), grid_->options);
+  const int count = static_cast<int>(blocks.size());
+  parallelFor((count + kBlocksPerTask - 1) / kBlocksPerTask, [&](int task) {
+    const int end = std::min(count, (task + 1) * kBlocksPerTask);
+    for (int i = task * kBlocksPerTask; i < end; ++i) {
+      update.apply(grid, blocks[static_cast<std::size_t>(i)]);
+    }
+  });
+}
+
+bool TsdfVolume::sample(const Eigen::Vector3f& p_scan, SdfSample& result) const {
+  return grid_->blocks.sample(p_scan, result);
+}
+
+ExtractedSurface TsdfVolume::extractSurface(float min_weight) const {
+  return extractFromGrid(grid_->blocks, min_weight);
+}
+
+std::size_t TsdfVolume::memoryBytes() const { return grid_->blocks.memoryBytes(); }
+
+int TsdfVolume::blockCount() const { return grid_->blocks.blockCount(); }
+
+}  // namespace tarsus
