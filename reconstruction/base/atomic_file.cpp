@@ -76,12 +76,30 @@ class Remover {
   fs::path path_;
 };
 
+/// A device or pipe (/dev/stdout) is written to, never replaced.
+bool isSpecial(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return !error && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// Where a link points, so that the link stays one.
+fs::path behindLinks(const fs::path& path) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
+  return error ? path : target;
+}
+
 }  // namespace
 
 Expected<void> writeFileAtomically(
-    const fs::path& path,
+    const fs::path& asked_path,
     const std::function<Expected<void>(const fs::path& temporary)>& write,
     Flush flush) {
+  if (isSpecial(asked_path)) {
+    return write(asked_path);
+  }
+  const fs::path path = behindLinks(asked_path);
   if (auto made = makeParent(path); !made) {
     return made;
   }

@@ -16,7 +16,8 @@ namespace tarsus {
 enum class Flush { ToDisk, Later };
 
 /// Writes a file whole or not at all: `write` fills a temporary file beside `path`, which is
-/// flushed to the disk and then renamed over it. Missing parent folders are made.
+/// flushed to the disk and then renamed over it. Missing parent folders are made. A device or pipe
+/// is written to as it is; a link stays a link.
 /// @param write  gets the temporary path (same extension); returns its own Error to give up
 /// @errors FileUnwritable, DiskFull, and those of `write`; the temporary file is removed
 [[nodiscard]] Expected<void> writeFileAtomically(

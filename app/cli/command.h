@@ -1,0 +1,34 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace tarsus {
+
+/// What the command line asks for: filled in while parsing, run afterwards.
+struct Command {
+  std::function<Expected<nlohmann::json>(const Job&)> run;
+  std::string json_file;  ///< "-": stdout; empty: no machine-readable result
+  bool quiet = false;
+};
+
+/// A subcommand with the options that all have (--json, --quiet).
+CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const char* what);
+
+void addSimulate(CLI::App& app, Command& command);
+void addReconstruct(CLI::App& app, Command& command);
+void addEvaluate(CLI::App& app, Command& command);
+void addMeasure(CLI::App& app, Command& command);
+void addReport(CLI::App& app, Command& command);
+void addDemo(CLI::App& app, Command& command);
+
+}  // namespace tarsus

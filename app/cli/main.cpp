@@ -1,0 +1,97 @@
+#include "app/cli/command.h"
+#include "app/cli/progress.h"
+#include "app/version.h"
+#include "reconstruction/base/atomic_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+
+namespace tarsus {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kWorldAtFault = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kBug = 3;
+
+std::stop_source& stopSource() {
+  static std::stop_source source;
+  return source;
+}
+
+/// Ctrl+C asks the running stage to stop, so that temporary files are cleaned up.
+void stopOnInterrupt() {
+  stopSource();  // made now: a signal handler must not
+  std::signal(SIGINT, [](int) {
+    stopSource().request_stop();
+    std::signal(SIGINT, SIG_DFL);  // the second one ends at once
+  });
+}
+
+int finish(const Command& command, const nlohmann::json& result, int code) {
+  if (command.json_file == "-") {
+    std::cout << result.dump(2) << std::endl;
+  } else if (!command.json_file.empty()) {
+    if (auto written = writeTextAtomically(command.json_file, result.dump(2) + "\n"); !written) {
+      std::cerr << "tarsus-cli: " << describe(written.error()) << '\n';
+      return kWorldAtFault;
+    }
+  }
+  return code;
+}
+
+int run(const Command& command) {
+  stopOnInterrupt();
+  ProgressBar bar(command.quiet);
+  const Job job{
+      .stop = stopSource().get_token(),
+      .report = [&](std::string_view stage, double fraction) { bar.show(stage, fraction); }};
+  try {
+    auto result = command.run(job);
+    bar.clear();
+    if (result) {
+      return finish(command, *result, kDone);
+    }
+    std::cerr << "tarsus-cli: " << describe(result.error()) << '\n';
+    return finish(
+        command,
+        {{"error",
+          {{"code", codeName(result.error().code)}, {"message", describe(result.error())}}}},
+        kWorldAtFault);
+  } catch (const std::exception& exception) {
+    bar.clear();
+    std::cerr << "tarsus-cli: a fault in the program; please report it: " << exception.what()
+              << '\n';
+    return finish(command, {{"error", {{"code", "bug"}, {"message", exception.what()}}}}, kBug);
+  }
+}
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app(
+      "Tarsus measures foot ulcers on 3D models made with a depth camera.\n"
+      "Research software. Not a medical device; not cleared by any authority; must not be the\n"
+      "sole basis of a clinical decision.");
+  app.set_version_flag("--version", TARSUS_VERSION);
+  app.require_subcommand(1);
+  Command command;
+  addSimulate(app, command);
+  addReconstruct(app, command);
+  addEvaluate(app, command);
+  addMeasure(app, command);
+  addReport(app, command);
+  addDemo(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  return run(command);
+}
+
+}  // namespace
+}  // namespace tarsus
+
+int main(int argc, char** argv) { return tarsus::parseAndRun(argc, argv); }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "measurement/wound/measure.h"
+#include "reconstruction/pipeline/reconstruct.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+namespace tarsus {
+
+/// Human-readable results on stdout.
+void printReconstruction(const Reconstruction& reconstruction, const std::filesystem::path& folder);
+
+/// A line for each quantity, with its interval.
+/// @param truth  an object with the same names to print beside, or null
+void printMeasurement(const WoundMeasurement& measurement, const nlohmann::json& truth);
+
+}  // namespace tarsus

@@ -1,0 +1,97 @@
+#include "app/cli/command.h"
+#include "app/cli/print.h"
+#include "app/version.h"
+#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/trajectory_file.h"
+#include "reconstruction/pipeline/model_folder.h"
+#include "reconstruction/pipeline/reconstruct.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace tarsus {
+namespace {
+
+struct Arguments {
+  std::filesystem::path scan;
+  std::filesystem::path out;
+  std::filesystem::path trajectory;
+  std::vector<double> intrinsics;
+  double depth_scale = 0.0;
+  bool no_texture = false;
+  ScanOptions options;
+};
+
+CameraOverrides overridesOf(const Arguments& arguments) {
+  CameraOverrides overrides;
+  if (arguments.intrinsics.size() == 4) {
+    const auto& k = arguments.intrinsics;
+    overrides.intrinsics = CameraOverrides::Pinhole{k[0], k[1], k[2], k[3]};
+  }
+  if (arguments.depth_scale > 0.0) {
+    overrides.depth_units_per_m = arguments.depth_scale;
+  }
+  return overrides;
+}
+
+Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job& job) {
+  arguments.options.texture = !arguments.no_texture;
+  if (!arguments.trajectory.empty()) {
+    auto trajectory = readTrajectory(arguments.trajectory);
+    if (!trajectory) {
+      return tl::unexpected(trajectory.error());
+    }
+    arguments.options.trajectory = std::move(*trajectory);
+  }
+  const CameraOverrides overrides = overridesOf(arguments);
+  const ScanOpener open = [&](const FrameContent& content) {
+    return openScanFolder(arguments.scan, overrides, content);
+  };
+  auto reconstruction = reconstructScan(open, arguments.options, job);
+  if (!reconstruction) {
+    return tl::unexpected(reconstruction.error());
+  }
+  auto written =
+      writeModelFolder(arguments.out, *reconstruction, arguments.options, TARSUS_VERSION);
+  if (!written) {
+    return tl::unexpected(written.error());
+  }
+  if (print) {
+    printReconstruction(*reconstruction, arguments.out);
+  }
+  return toJson(*reconstruction, arguments.options, TARSUS_VERSION);
+}
+
+}  // namespace
+
+void addReconstruct(CLI::App& app, Command& command) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub =
+      addCommand(app, command, "reconstruct", "Make a coloured 3D model from a recorded scan");
+  sub->add_option("SCAN", arguments->scan, "Scan folder, or any TUM RGB-D sequence")->required();
+  sub->add_option("OUT_DIR", arguments->out, "Where model.ply and the rest are written")
+      ->required();
+  sub->add_option("--voxel-mm", arguments->options.surface.voxel_size_mm, "Voxel size")
+      ->check(CLI::Range(0.25, 10.0))
+      ->capture_default_str();
+  sub->add_flag("--no-texture", arguments->no_texture, "Geometry and fused colours only");
+  sub->add_flag("--keep-background",
+                arguments->options.keep_background,
+                "Keep support, table and wall in the model");
+  sub->add_option("--trajectory", arguments->trajectory, "Known poses (TUM) instead of tracking")
+      ->type_name("FILE");
+  sub->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy in pixels")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("FX,FY,CX,CY");
+  sub->add_option("--depth-scale", arguments->depth_scale, "Depth units per metre (8000: 0.125 mm)")
+      ->check(CLI::PositiveNumber);
+  sub->callback([&command, arguments] {
+    command.run = [&command, arguments](const Job& job) {
+      return reconstruct(*arguments, !command.quiet && command.json_file != "-", job);
+    };
+  });
+}
+
+}  // namespace tarsus

@@ -1,0 +1,44 @@
+#include "app/cli/command.h"
+#include "app/cli/print_report.h"
+#include "app/cli/wound_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace tarsus {
+
+void addReport(CLI::App& app, Command& command) {
+  struct Arguments {
+    WoundArguments wound;
+    std::filesystem::path pdf;
+    std::string title;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub = addCommand(app, command, "report", "Measure one wound and print it as PDF");
+  addWoundOptions(*sub, arguments->wound);
+  sub->add_option("OUT", arguments->pdf, "The PDF to write")->required()->type_name("OUT.pdf");
+  sub->add_option("--title", arguments->title, "Who, which wound, which scan")->type_name("TEXT");
+  sub->callback([&command, arguments] {
+    command.run = [&command, arguments](const Job& /*job*/) -> Expected<nlohmann::json> {
+      auto measured = measureFiles(arguments->wound);
+      if (!measured) {
+        return tl::unexpected(measured.error());
+      }
+      const std::string title = arguments->title.empty()
+                                    ? "Model " + arguments->wound.model.filename().string()
+                                    : arguments->title;
+      if (auto printed = printReport(arguments->pdf, *measured, arguments->wound.model, title);
+          !printed) {
+        return tl::unexpected(printed.error());
+      }
+      if (!command.quiet && command.json_file != "-") {
+        std::cout << "Wrote " << arguments->pdf.string() << '\n';
+      }
+      return measurementJson(*measured);
+    };
+  });
+}
+
+}  // namespace tarsus

@@ -1,0 +1,69 @@
+#include "app/cli/simulate_options.h"
+#include "reconstruction/capture/simulator/simulator.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace tarsus {
+
+void addSimulationOptions(CLI::App& sub, SimulatorOptions& options) {
+  const std::map<std::string, FootCase> feet{{"forefoot", FootCase::Forefoot},
+                                             {"heel", FootCase::Heel},
+                                             {"lateral", FootCase::Lateral},
+                                             {"two", FootCase::Two}};
+  const std::map<std::string, CameraPath> paths{
+      {"rig", CameraPath::Rig}, {"loop", CameraPath::Loop}, {"quick", CameraPath::Quick}};
+  const std::map<std::string, CameraLayout> layouts{{"aligned", CameraLayout::Aligned},
+                                                    {"offset", CameraLayout::Offset}};
+  sub.add_option("--foot", options.foot, "Which ulcers: forefoot, heel, lateral or two")
+      ->transform(CLI::CheckedTransformer(feet).description(""))
+      ->type_name("CASE");
+  sub.add_option("--frames", options.frames, "Frames over the 20 s motion")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  sub.add_option("--seed", options.seed, "Of the noise")->capture_default_str();
+  sub.add_option("--noise", options.noise, "0: none, 1: as a structured-light camera")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  sub.add_option("--jitter-mm", options.jitter_mm, "Hand shake, standard deviation")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  sub.add_option("--camera", options.layout, "Colour camera: aligned with depth, or offset")
+      ->transform(CLI::CheckedTransformer(layouts).description(""))
+      ->type_name("LAYOUT");
+  sub.add_option("--path", options.path, "Camera motion: rig, loop or quick")
+      ->transform(CLI::CheckedTransformer(paths).description(""))
+      ->type_name("PATH");
+  sub.add_option("--mesh", options.mesh, "A closed foot mesh (OBJ) instead of the built-in foot")
+      ->type_name("FILE.obj");
+}
+
+void addSimulate(CLI::App& app, Command& command) {
+  struct Arguments {
+    std::filesystem::path out;
+    SimulatorOptions options;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub = addCommand(
+      app, command, "simulate", "Make the scan of a computer-made foot with ulcers of known size");
+  sub->add_option("OUT", arguments->out, "Scan folder to write, with truth/ in it")->required();
+  addSimulationOptions(*sub, arguments->options);
+  sub->callback([&command, arguments] {
+    command.run = [&command, arguments](const Job& job) -> Expected<nlohmann::json> {
+      if (auto done = simulateScan(arguments->out, arguments->options, job); !done) {
+        return tl::unexpected(done.error());
+      }
+      if (!command.quiet && command.json_file != "-") {
+        std::cout << "Wrote the scan to " << arguments->out.string()
+                  << "; what is true of it is in truth/.\n";
+      }
+      return nlohmann::json{{"scan", arguments->out.string()},
+                            {"frames", arguments->options.frames},
+                            {"seed", arguments->options.seed}};
+    };
+  });
+}
+
+}  // namespace tarsus

@@ -1,0 +1,86 @@
+#include "app/cli/wound_arguments.h"
+
+#include "app/version.h"
+#include "reconstruction/scene/mesh_index.h"
+#include "reconstruction/scene/ply.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace tarsus {
+
+void addWoundOptions(CLI::App& sub, WoundArguments& arguments) {
+  sub.add_option("MODEL", arguments.model, "model.ply, mm")->required();
+  sub.add_option("--outline", arguments.outline, "Wound outline (JSON, scan frame, mm)")
+      ->required()
+      ->type_name("FILE");
+  sub.add_option("--skin-curve",
+                 arguments.skin_curve,
+                 "Where healthy skin begins (same format); default 2 mm outside the outline")
+      ->type_name("FILE");
+  auto* heel = sub.add_option("--heel", arguments.heel_mm, "Heel landmark, for clock directions")
+                   ->delimiter(',')
+                   ->expected(3)
+                   ->type_name("X,Y,Z");
+  sub.add_option("--toe", arguments.toe_mm, "Toe landmark")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z")
+      ->needs(heel);
+}
+
+Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
+  auto foot = readPly(arguments.model);
+  if (!foot) {
+    return tl::unexpected(foot.error());
+  }
+  const MeshIndex index(foot->mesh);
+  const auto trace = [&](const std::filesystem::path& path) -> Expected<WoundOutline> {
+    auto points = readOutlinePoints(path);
+    if (!points) {
+      return tl::unexpected(points.error());
+    }
+    return traceOutline(*foot, index, *points);
+  };
+  auto outline = trace(arguments.outline);
+  if (!outline) {
+    return tl::unexpected(outline.error());
+  }
+  std::optional<WoundOutline> skin_curve;
+  if (!arguments.skin_curve.empty()) {
+    auto traced = trace(arguments.skin_curve);
+    if (!traced) {
+      return tl::unexpected(traced.error());
+    }
+    skin_curve = std::move(*traced);
+  }
+  std::optional<Landmarks> landmarks;
+  if (arguments.heel_mm.size() == 3 && arguments.toe_mm.size() == 3) {
+    landmarks = Landmarks{.heel_mm = Eigen::Vector3d(arguments.heel_mm.data()),
+                          .toe_mm = Eigen::Vector3d(arguments.toe_mm.data())};
+  }
+  auto wound = measureWound(*foot, *outline, skin_curve, landmarks);
+  if (!wound) {
+    return tl::unexpected(wound.error());
+  }
+  const bool unfit =
+      std::ranges::find(foot->comments, "fit_for_measurement no") != foot->comments.end();
+  if (unfit) {
+    wound->numbers.warnings.push_back(
+        {"model_unfit", "The scan behind this model was refused for measurement; scan again."});
+  }
+  return MeasuredModel{.foot = std::move(*foot),
+                       .wound = std::move(*wound),
+                       .landmarks = landmarks,
+                       .fit_for_measurement = !unfit};
+}
+
+nlohmann::json measurementJson(const MeasuredModel& measured) {
+  nlohmann::json result = toJson(measured.wound.numbers);
+  result["version"] = TARSUS_VERSION;
+  result["model_sha256"] = measured.foot.sha256;
+  return result;
+}
+
+}  // namespace tarsus

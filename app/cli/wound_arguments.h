@@ -1,0 +1,36 @@
+#pragma once
+
+#include "app/cli/command.h"
+#include "measurement/wound/measure.h"
+#include "reconstruction/scene/mesh.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace tarsus {
+
+/// What `measure`, `report` and `demo` need to know of one wound.
+struct WoundArguments {
+  std::filesystem::path model;
+  std::filesystem::path outline;
+  std::filesystem::path skin_curve;  ///< empty: offset of the outline
+  std::vector<double> heel_mm;       ///< 3 coordinates, or empty
+  std::vector<double> toe_mm;
+};
+
+void addWoundOptions(CLI::App& sub, WoundArguments& arguments);
+
+struct MeasuredModel {
+  TexturedMesh foot;
+  MeasuredWound wound;
+  std::optional<Landmarks> landmarks;
+  bool fit_for_measurement = true;  ///< as the model's file says
+};
+
+/// Reads model and curves and measures. @errors those of readPly, traceOutline, measureWound
+[[nodiscard]] Expected<MeasuredModel> measureFiles(const WoundArguments& arguments);
+
+/// measurement.json: the numbers with version and warnings.
+[[nodiscard]] nlohmann::json measurementJson(const MeasuredModel& measured);
+
+}  // namespace tarsus

@@ -1,0 +1,5 @@
+#pragma once
+
+#ifndef TARSUS_VERSION
+#error "the build gives TARSUS_VERSION"
+#endif

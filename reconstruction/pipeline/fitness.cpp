@@ -1,0 +1,48 @@
+#include "reconstruction/pipeline/fitness.h"
+
+#include <cstdio>
+
+namespace tarsus {
+namespace {
+
+constexpr double kMaxLostFraction = 0.2;
+constexpr double kMaxResidual_mm = 2.0;
+constexpr double kMaxUnseenFraction = 0.3;
+
+std::string sentence(const char* format, double a, double b) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+Warnings refusalReasons(const Reconstruction& reconstruction) {
+  Warnings reasons;
+  const double lost = static_cast<double>(reconstruction.framesLost()) /
+                      static_cast<double>(std::max(1, reconstruction.frames_total));
+  if (lost > kMaxLostFraction) {
+    reasons.push_back({"frames_lost",
+                       sentence("%.0f %% of the frames could not be placed (at most %.0f %%); scan "
+                                "again, moving slowly.",
+                                100.0 * lost,
+                                100.0 * kMaxLostFraction)});
+  }
+  if (reconstruction.tracking_rmse_mm.value_or(0.0) > kMaxResidual_mm) {
+    reasons.push_back({"residual_high",
+                       sentence("The frames disagree by %.1f mm (at most %.1f mm); scan again with "
+                                "the foot kept still.",
+                                *reconstruction.tracking_rmse_mm,
+                                kMaxResidual_mm)});
+  }
+  if (reconstruction.unseen_fraction > kMaxUnseenFraction) {
+    reasons.push_back({"unseen",
+                       sentence("%.0f %% of the surface was seen by no sharp picture (at most %.0f "
+                                "%%); scan again from more sides.",
+                                100.0 * reconstruction.unseen_fraction,
+                                100.0 * kMaxUnseenFraction)});
+  }
+  return reasons;
+}
+
+}  // namespace tarsus

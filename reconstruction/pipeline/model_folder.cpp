@@ -1,0 +1,152 @@
+#include "reconstruction/pipeline/model_folder.h"
+
+#include "reconstruction/base/atomic_file.h"
+#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/trajectory_file.h"
+#include "reconstruction/scene/ply.h"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace tarsus {
+namespace {
+
+using nlohmann::json;
+
+template <typename T>
+json orNull(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+json toJson(const Warnings& warnings) {
+  json list = json::array();
+  for (const Warning& warning : warnings) {
+    list.push_back({{"code", warning.code}, {"text", warning.text}});
+  }
+  return list;
+}
+
+json toJson(const TsdfWeighting& weighting) {
+  return {{"epsilon_mm", weighting.epsilon_mm},
+          {"delta_mm", weighting.delta_mm},
+          {"sigma_per_mm2", weighting.sigma_per_mm2}};
+}
+
+json toJson(const ScanOptions& options) {
+  return {{"texture", options.texture},
+          {"keep_background", options.keep_background},
+          {"known_trajectory", options.trajectory.has_value()},
+          {"min_weight", options.min_weight},
+          {"voxel_mm", options.surface.voxel_size_mm},
+          {"surface_weighting", toJson(options.surface.weighting)},
+          {"min_depth_mm", options.surface.min_depth_mm},
+          {"max_depth_mm", options.surface.max_depth_mm},
+          {"tracking_voxel_mm", options.tracking.voxel_size_mm},
+          {"tracking_weighting", toJson(options.tracking.weighting)},
+          {"tracking_coarse_voxel_mm", options.tracking.coarse_voxel_size_mm},
+          {"tracking_coarse_delta_mm", options.tracking.coarse_delta_mm},
+          {"lost_rmse_mm", options.tracking.lost_rmse_mm},
+          {"lost_inlier_fraction", options.tracking.lost_inlier_fraction},
+          {"keyframes_wanted", options.keyframes.target_count},
+          {"vertex_spacing_px", options.color.vertex_spacing_px},
+          {"max_vertices", options.color.max_vertices},
+          {"max_view_angle_deg", options.color.max_view_angle_deg},
+          {"best_views", options.color.best_views}};
+}
+
+double peakMemoryMb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+json originTimestamp(const Trajectory& trajectory) {
+  for (const FramePose& pose : trajectory) {
+    if (pose.scan_from_camera) {
+      return static_cast<double>(pose.timestamp.count()) * 1e-6;
+    }
+  }
+  return nullptr;
+}
+
+Expected<void> writeKeyframes(const std::filesystem::path& folder,
+                              const Reconstruction& reconstruction) {
+  auto writer = ScanFolderWriter::create(folder, reconstruction.camera);
+  if (!writer) {
+    return tl::unexpected(writer.error());
+  }
+  Trajectory poses;
+  for (const Keyframe& keyframe : reconstruction.keyframes) {
+    if (auto written = writer->write(keyframe.frame); !written) {
+      return written;
+    }
+    poses.push_back({.frame_index = keyframe.frame.index,
+                     .timestamp = keyframe.frame.timestamp,
+                     .scan_from_camera = keyframe.scan_from_camera});
+  }
+  return writer->finish(poses);
+}
+
+}  // namespace
+
+json toJson(const Reconstruction& r, const ScanOptions& options, std::string_view version) {
+  json stages = json::array();
+  for (const StageTime& stage : r.stages) {
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"frames_per_second", stage.frames_per_second}});
+  }
+  return {{"frames_total", r.frames_total},
+          {"frames_tracked", r.frames_tracked},
+          {"frames_lost", r.framesLost()},
+          {"relocalisations", r.relocalisations},
+          {"tracking_rmse_mm", orNull(r.tracking_rmse_mm)},
+          {"loop_residual_mm", nullptr},  // loops are not closed yet
+          {"vertices", r.model.mesh.vertices.size()},
+          {"faces", r.model.mesh.faces.size()},
+          {"holes", r.holes},
+          {"unseen_fraction", r.unseen_fraction},
+          {"keyframes", r.keyframes.size()},
+          {"photometric_rmse_before", orNull(r.photometric_rmse_before)},
+          {"photometric_rmse_after", orNull(r.photometric_rmse_after)},
+          {"stages", stages},
+          {"peak_memory_mb", peakMemoryMb()},
+          {"origin_timestamp", originTimestamp(r.trajectory)},
+          {"fit_for_measurement", r.fitForMeasurement()},
+          {"refusal_reasons", toJson(r.refusal_reasons)},
+          {"camera",
+           {{"model", r.camera.model},
+            {"serial", r.camera.serial},
+            {"depth_scale", r.camera.depth_units_per_m}}},
+          {"scan_sha256", r.scan_sha256},
+          {"model_sha256", r.model.sha256},
+          {"options", toJson(options)},
+          {"version", version},
+          {"warnings", toJson(r.warnings)}};
+}
+
+Expected<void> writeModelFolder(const std::filesystem::path& folder,
+                                const Reconstruction& reconstruction,
+                                const ScanOptions& options,
+                                std::string_view version) {
+  TexturedMesh model = reconstruction.model;
+  model.comments = {
+      "Tarsus " + std::string(version),
+      "scan_sha256 " + reconstruction.scan_sha256,
+      reconstruction.fitForMeasurement() ? "fit_for_measurement yes" : "fit_for_measurement no",
+      "Research software. Not a medical device."};
+  auto written = writePly(folder / "model.ply", model);
+  if (written) {
+    written = writeTrajectory(folder / "trajectory.txt", reconstruction.trajectory);
+  }
+  if (written && !reconstruction.keyframes.empty()) {
+    written = writeKeyframes(folder / "keyframes", reconstruction);
+  }
+  if (written) {
+    written = writeTextAtomically(folder / "reconstruction.json",
+                                  toJson(reconstruction, options, version).dump(2) + "\n");
+  }
+  return written;
+}
+
+}  // namespace tarsus

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+#include "reconstruction/capture/frame_source.h"
+#include "reconstruction/fusion/fusion.h"
+#include "reconstruction/pipeline/background.h"
+#include "reconstruction/scene/mesh.h"
+#include "reconstruction/texture/color_map.h"
+#include "reconstruction/texture/keyframes.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tarsus {
+
+/// Everything that steers a reconstruction; the record stores all of it.
+struct ScanOptions {
+  bool texture = true;
+  bool keep_background = false;
+  float min_weight = 3.0F;  ///< of all 8 corners of a cell that gives surface (prototype: 3)
+  TrackingOptions tracking;
+  TsdfOptions surface;
+  BackgroundOptions background;
+  KeyframeOptions keyframes;
+  ColorMapOptions color;
+  std::optional<Trajectory> trajectory;  ///< known poses (a rig's encoders): no tracking
+};
+
+struct StageTime {
+  std::string name;
+  double seconds = 0.0;
+  double frames_per_second = 0.0;  ///< 0 for stages that do not run over frames
+};
+
+/// What came out of a scan, and how good it is.
+struct Reconstruction {
+  TexturedMesh model;
+  Trajectory trajectory;
+  RgbdCamera camera;
+  std::vector<Keyframe> keyframes;
+  int frames_total = 0;
+  int frames_tracked = 0;
+  int relocalisations = 0;
+  std::optional<double> tracking_rmse_mm;         ///< empty with known poses
+  std::optional<double> photometric_rmse_before;  ///< fused colours
+  std::optional<double> photometric_rmse_after;   ///< keyframe texture
+  double unseen_fraction = 0.0;                   ///< of the vertices
+  int holes = 0;                                  ///< boundary loops
+  std::vector<StageTime> stages;
+  std::string scan_sha256;
+  Warnings refusal_reasons;  ///< empty: fit for measurement
+  Warnings warnings;
+
+  [[nodiscard]] bool fitForMeasurement() const { return refusal_reasons.empty(); }
+  [[nodiscard]] int framesLost() const { return frames_total - frames_tracked; }
+};
+
+/// Opens the same scan from its beginning, as often as asked.
+using ScanOpener =
+    std::function<Expected<std::unique_ptr<FrameSource>>(const FrameContent& content)>;
+
+/// Scan to textured mesh: track, fuse anew, extract, cut off the background, choose keyframes,
+/// colour. The scan streams; only keyframes are held.
+/// @errors those of the stages; a model that exists but is unfit is no error
+[[nodiscard]] Expected<Reconstruction> reconstructScan(const ScanOpener& open,
+                                                       const ScanOptions& options,
+                                                       const Job& job);
+
+}  // namespace tarsus

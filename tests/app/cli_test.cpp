@@ -1,0 +1,214 @@
+// The command line as a user meets it: exit codes, sentences, JSON, nothing half-written.
+#include "reconstruction/scene/ply.h"
+#include "tests/reconstruction/capture/scan_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Run {
+  int exit_code = -1;
+  std::string output;  ///< stdout and stderr
+};
+
+Run runShell(const std::string& command) {
+  Run run;
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+    run.output.append(buffer.data(), n);
+  }
+  const int status = ::pclose(pipe);
+  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return run;
+}
+
+Run cli(const std::string& arguments) {
+  return runShell(std::string(TARSUS_CLI) + " " + arguments);
+}
+
+nlohmann::json readJson(const fs::path& path) {
+  return nlohmann::json::parse(std::ifstream(path), nullptr, false);
+}
+
+/// A flat square of 40 x 40 mm at z = 400, facing the camera.
+void writeSquare(const fs::path& path) {
+  TexturedMesh square;
+  for (int j = 0; j <= 20; ++j) {
+    for (int i = 0; i <= 20; ++i) {
+      square.mesh.vertices.emplace_back(
+          2.0F * static_cast<float>(i) - 20.0F, 2.0F * static_cast<float>(j) - 20.0F, 400.0F);
+      if (i < 20 && j < 20) {
+        const int a = 21 * j + i;
+        square.mesh.faces.emplace_back(a, a + 21, a + 1);
+        square.mesh.faces.emplace_back(a + 1, a + 21, a + 22);
+      }
+    }
+  }
+  ASSERT_TRUE(writePly(path, square));
+}
+
+class Cli : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_.path() / name).string();
+  }
+  /// Runs, expects exit 1, and that the JSON names `code` and the sentence stands on stderr.
+  void expectRefused(const std::string& arguments, const std::string& code) const {
+    const Run run = cli(arguments + " --json " + file("result.json"));
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    const auto json = readJson(file("result.json"));
+    ASSERT_TRUE(json.is_object()) << run.output;
+    EXPECT_EQ(json.at("error").at("code"), code) << run.output;
+    const auto message = json.at("error").at("message").get<std::string>();
+    EXPECT_NE(run.output.find(message), std::string::npos) << run.output;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Cli, HelpIsThereForEveryCommand) {
+  EXPECT_EQ(cli("--help").exit_code, 0);
+  for (const std::string command :
+       {"simulate", "reconstruct", "evaluate", "measure", "report", "demo"}) {
+    const Run run = cli(command + " --help");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_NE(run.output.find("--json"), std::string::npos) << run.output;
+  }
+}
+
+TEST_F(Cli, WrongUsageIsTwo) {
+  for (const std::string arguments : {"",
+                                      "dance",
+                                      "measure",
+                                      "reconstruct onlyone",
+                                      "simulate x --foot hand",
+                                      "simulate x --frames none",
+                                      "simulate x --frames 0",
+                                      "reconstruct a b --voxel-mm 0",
+                                      "reconstruct a b --intrinsics 1,2,3",
+                                      "evaluate a.ply b.ply --align maybe",
+                                      "measure m.ply --outline o.json --toe 1,2,3"}) {
+    EXPECT_EQ(cli(arguments).exit_code, 2) << arguments;
+  }
+}
+
+TEST_F(Cli, BadScansAreRefusedAndNothingIsWritten) {
+  const std::string scan = file("scan");
+  const std::string out = file("out");
+  const std::string command = "reconstruct " + scan + " " + out;
+  expectRefused(command, "file_missing");
+  writeSmallScan(scan, 2);
+  expectRefused(command + " --depth-scale 1000", "depth_unit_implausible");
+  fs::remove(fs::path(scan) / "camera.json");
+  expectRefused(command, "camera_facts_missing");
+  writeText(fs::path(scan) / "camera.json", "{}");
+  expectRefused(command, "camera_facts_invalid");
+  fs::remove_all(fs::path(scan) / "depth");
+  expectRefused(command, "scan_empty");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(Cli, BadTrajectoryIsRefused) {
+  writeSmallScan(file("scan"), 2);
+  writeText(file("poses.txt"), "no poses here\n");
+  expectRefused(
+      "reconstruct " + file("scan") + " " + file("out") + " --trajectory " + file("poses.txt"),
+      "trajectory_invalid");
+  writeText(file("poses.txt"), "999 0 0 0 0 0 0 1\n");
+  expectRefused(
+      "reconstruct " + file("scan") + " " + file("out") + " --trajectory " + file("poses.txt"),
+      "trajectory_invalid");
+}
+
+TEST_F(Cli, OutlineOffTheMeshIsRefused) {
+  writeSquare(file("square.ply"));
+  writeText(
+      file("outline.json"),
+      R"({"frame":"scan","unit":"mm","closed":true,"points":[[0,0,500],[5,0,500],[0,5,500]]})");
+  expectRefused("measure " + file("square.ply") + " --outline " + file("outline.json"),
+                "outline_off_surface");
+}
+
+TEST_F(Cli, BadOutlineFilesAreRefused) {
+  writeSquare(file("square.ply"));
+  const std::string command =
+      "measure " + file("square.ply") + " --outline " + file("outline.json");
+  expectRefused(command, "file_missing");
+  for (const char* text : {"",
+                           "[]",
+                           "{\"points\":3}",
+                           "{\"points\":[[1,2],[3,4],[5,6]]}",
+                           "{\"points\":[[0,0,400],[1,0,400]]}"}) {
+    writeText(file("outline.json"), text);
+    expectRefused(command, "outline_invalid");
+  }
+}
+
+TEST_F(Cli, ModelThatIsNoMeshIsRefused) {
+  writeText(file("model.ply"), "ply\nformat ascii 1.0\nend_header\n");
+  writeText(file("outline.json"), "{\"points\":[[0,0,400],[1,0,400],[0,1,400]]}");
+  expectRefused("measure " + file("model.ply") + " --outline " + file("outline.json"),
+                "mesh_invalid");
+  expectRefused("evaluate " + file("model.ply") + " " + file("model.ply"), "mesh_invalid");
+}
+
+TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
+  writeSquare(file("square.ply"));
+  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                      " --quiet --json " + file("result.json"));
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const auto json = readJson(file("result.json"));
+  EXPECT_LT(json.at("hausdorff").get<double>(), 1e-5);
+  EXPECT_EQ(json.at("completeness_1mm").get<double>(), 1.0);
+}
+
+TEST_F(Cli, JsonToStdoutIsNothingButJson) {
+  writeSquare(file("square.ply"));
+  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") + " --json -");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(run.output, nullptr, false).is_object()) << run.output;
+}
+
+TEST_F(Cli, AFullDeviceIsSaid) {
+  writeSquare(file("square.ply"));
+  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                      " --quiet --json /dev/full");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));  // not replaced by a file
+}
+
+TEST_F(Cli, AFullDiskLeavesNothingHalfWritten) {
+  const std::string disk = file("disk");
+  fs::create_directory(disk);
+  const std::string in_namespace = "unshare --map-root-user --mount sh -c '";
+  const std::string mount = "mount -t tmpfs -o size=300k none " + disk + " && ";
+  if (runShell(in_namespace + mount + "true'").exit_code != 0) {
+    GTEST_SKIP() << "no small disk can be mounted here";
+  }
+  const Run run = runShell(in_namespace + mount + TARSUS_CLI + " simulate " + disk +
+                           "/scan --frames 3; echo exit $?; find " + disk + " -name \".*part*\"'");
+  EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("exit 1"), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("part"), std::string::npos) << run.output;
+}
+
+TEST_F(Cli, AnUnwritableFolderIsSaid) {
+  writeText(file("a_file"), "");
+  expectRefused("simulate " + file("a_file") + "/scan --frames 1", "file_unwritable");
+}
+
+}  // namespace
+}  // namespace tarsus
