@@ -16,6 +16,11 @@ struct ColorMapOptions {
   double visibility_depth_mm = 3.0;  ///< farther behind the model's first surface: hidden
   double max_view_angle_deg = 70.0;
   int best_views = 6;  ///< views averaged per vertex
+  double sensor_occlusion_mm =
+      8.0;                      ///< measured so much nearer than the vertex: something hides it
+  double edge_margin_px = 2.0;  ///< no colour from so near to a jump of the model's depth
+  double edge_fade_px = 8.0;    ///< full weight so far from edges of model and image
+  bool level_exposure = true;   ///< one gain per image and channel, their mean kept
 };
 
 /// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
