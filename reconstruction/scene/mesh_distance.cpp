@@ -17,7 +17,7 @@ namespace tarsus {
 namespace {
 
 constexpr double kCompleteWithin_mm = 1.0;
-constexpr std::size_t kMostFitPoints = 20000;  ///< more make the fit slower, not better
+constexpr std::size_t kMostFitPoints = 8000;  ///< more make the fit slower, not better
 
 /// Counter-based noise: the same number for the same place, whatever ran before it.
 /// Source: Steele et al., SplittableRandom, OOPSLA 2014 (splitmix64).

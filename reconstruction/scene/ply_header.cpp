@@ -147,6 +147,9 @@ Expected<PlyHeader> parsePlyHeader(std::string_view bytes) {
       header.body_offset = text.position();
       return format_known ? Expected<PlyHeader>(std::move(header)) : badLine(line);
     }
+    if (text.atEnd()) {
+      break;  // cut off, perhaps in the middle of this line
+    }
     if (keyword == "format") {
       const auto format = parseFormat(line, words);
       if (!format) {
