@@ -6,8 +6,10 @@
 
 namespace tarsus {
 
-/// Takes the report's pictures of a measured wound and fills in what belongs to them.
-/// @param toe_mm  up in the picture, where landmarks are known
+/// Takes the report's pictures of a measured wound and fills in what belongs to them: measurement,
+/// pictures, curves, contours, section, model hash. Title, quality, version and time stay the
+/// caller's. The wound is seen along the mean outward normal of its reference skin.
+/// @param landmarks  where known, toes are up in every picture; else the foot's long axis is
 [[nodiscard]] ReportContent illustrate(const TexturedMesh& foot,
                                        const MeasuredWound& wound,
                                        const std::optional<Landmarks>& landmarks);

@@ -4,6 +4,7 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/image.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,29 +13,63 @@
 
 namespace tarsus {
 
+/// Cut A-A' through the deepest point, levelled on the skin curve; equal scales in both directions.
+struct SectionProfile {
+  std::vector<Eigen::Vector2d> surface_mm;    ///< (along, height) from A to A'
+  std::vector<Eigen::Vector2d> reference_mm;  ///< the reference skin over the wound
+  std::array<double, 2> outline_at_mm{};      ///< where C is crossed, along
+  std::array<double, 2> skin_curve_at_mm{};   ///< where K is crossed, along
+  double deepest_at_mm = 0.0;
+  std::array<Eigen::Vector2d, 2> ends_px{};  ///< A and A' in the close view
+};
+
 /// What the report says, ready to print: every number is already measured.
 struct ReportContent {
   std::string title_line;  ///< who, which wound, which scan; never empty
   WoundMeasurement measurement;
-  ColorImage texture;                          ///< close view of the wound, square
-  ColorImage depth_map;                        ///< same view, coloured by depth
-  ColorImage foot;                             ///< the whole foot
-  double close_mm_per_px = 0.1;                ///< of texture and depth_map
-  std::vector<Eigen::Vector2d> outline_px;     ///< C in the close view
-  std::vector<Eigen::Vector2d> skin_curve_px;  ///< K in the close view
+  ColorImage texture;                            ///< close view of the wound, square
+  ColorImage depth_map;                          ///< same view, coloured by depth
+  ColorImage foot;                               ///< the whole foot
+  double close_mm_per_px = 0.1;                  ///< of texture and depth_map
+  double foot_mm_per_px = 0.4;                   ///< of foot
+  std::vector<Eigen::Vector2d> outline_px;       ///< C in the close view
+  std::vector<Eigen::Vector2d> skin_curve_px;    ///< K in the close view
+  std::vector<Eigen::Vector2d> foot_outline_px;  ///< C in the picture of the foot
+  /// Lines of equal depth in the close view, as separate short segments.
+  std::vector<std::array<Eigen::Vector2d, 2>> contours_px;
+  double contour_step_mm = 1.0;
   std::optional<Eigen::Vector2d> deepest_px;
   double depth_scale_end_mm = 0.0;  ///< the depth map's colours run from 0 to this
+  bool has_color = true;            ///< false: the model carries no colour, shaded skin is shown
+  bool oriented = false;            ///< heel and toe are known: toes are up, the clock is drawn
+  std::optional<SectionProfile> section;
   std::vector<std::pair<std::string, std::string>> quality;  ///< "Frames tracked" -> "600 of 600"
   bool fit_for_measurement = true;
   std::vector<std::string> refusal_reasons;
   std::string version;
   std::string model_sha256;
-  std::string created;  ///< as printed, from the caller: the same content gives the same bytes
+  std::string created;  ///< ISO 8601 UTC, from the caller: the same content gives the same bytes
 };
 
-/// Writes the two-page A4 report. Needs a QGuiApplication (offscreen is enough).
+/// Where something stands on a page, for tests of the layout.
+struct ReportFrame {
+  int page = 1;
+  std::string name;
+  double x_mm = 0.0;
+  double y_mm = 0.0;
+  double width_mm = 0.0;
+  double height_mm = 0.0;
+};
+
+/// Writes the two-page A4 report (more pages only where warnings do not fit: a text is never cut).
+/// The same content gives the same bytes. Needs a QGuiApplication (offscreen is enough).
+/// Source: page, type, tables, numbers and pictures follow the print design (README.md).
 /// @errors FontMissing, FileUnwritable, DiskFull
 [[nodiscard]] Expected<void> writeReport(const std::filesystem::path& path,
                                          const ReportContent& content);
+
+/// The frames of the report as writeReport would print it.
+/// @errors FontMissing
+[[nodiscard]] Expected<std::vector<ReportFrame>> layoutReport(const ReportContent& content);
 
 }  // namespace tarsus

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "measurement/report/page_canvas.h"
+
+namespace tarsus {
+
+/// Page 1: whose wound, the key values, one sentence, the pictures. Starts no page of its own.
+void frontPage(PageCanvas& canvas, const ReportContent& content);
+
+}  // namespace tarsus

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "measurement/report/page_canvas.h"
+
+namespace tarsus {
+
+/// "4   Measurements": number in teal. @return the height used [mm]
+double sectionHead(PageCanvas& canvas, const QPointF& top_left_mm, int number, const QString& name);
+
+/// Title line of page 1 or the running line of the others, with the badge at its right.
+/// @return where the content begins [mm]
+double pageHead(PageCanvas& canvas, const ReportContent& content);
+
+/// Research-use line, hash, version, time and "page n/N".
+void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages);
+
+/// 5 mm black and 5 mm white with "1 cm", true to the picture's scale, at its lower left.
+void scaleBar(PageCanvas& canvas, const QRectF& picture_mm, double print_scale);
+
+/// What the product is and is not, as every page says it.
+[[nodiscard]] QString researchUseText();
+
+}  // namespace tarsus

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "measurement/report/report.h"
+#include "measurement/wound/measure.h"
+#include "reconstruction/scene/mesh.h"
+#include "reconstruction/scene/mesh_picture.h"
+
+#include <optional>
+
+namespace tarsus {
+
+/// Cuts foot and reference skin through the deepest point and the middle of the outline, seen along
+/// the view; levelled on the two crossings of the skin curve.
+/// @return nothing where the deepest point, either curve or the surface along the cut is missing
+[[nodiscard]] std::optional<SectionProfile> cutSection(const TexturedMesh& foot,
+                                                       const MeasuredWound& wound,
+                                                       const ViewFrame& view,
+                                                       const PictureOptions& options);
+
+}  // namespace tarsus

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "reconstruction/scene/image.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tarsus {
+
+/// What a reader of the PDF gets, through poppler's tools.
+
+/// Text of each page, white space and no-break spaces folded to single spaces.
+[[nodiscard]] std::vector<std::string> pageTexts(const std::filesystem::path& pdf);
+
+struct EmbeddedFont {
+  std::string name;
+  bool embedded = false;
+};
+[[nodiscard]] std::vector<EmbeddedFont> embeddedFonts(const std::filesystem::path& pdf);
+
+/// A page as pixels.
+[[nodiscard]] ColorImage renderedPage(const std::filesystem::path& pdf, int page, int dpi);
+
+/// Objects whose offset in the cross-reference table points at "N 0 obj"; -1 if any does not.
+[[nodiscard]] int crossReferencesThatHold(const std::string& pdf);
+
+}  // namespace tarsus
