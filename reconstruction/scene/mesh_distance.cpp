@@ -29,27 +29,43 @@ double uniform(std::uint64_t counter) {
   return static_cast<double>(z >> 11) * 0x1.0p-53;
 }
 
-struct Samples {
-  std::vector<Eigen::Vector3d> points;  ///< at vertices first, then on faces
-  std::size_t vertex_count = 0;
-};
-
 bool inside(const std::optional<Ball>& region, const Eigen::Vector3d& p) {
   return !region || (p - region->center_mm).norm() <= region->radius_mm;
+}
+
+struct Corner {
+  Eigen::Vector3d a;
+  Eigen::Vector3d ab;
+  Eigen::Vector3d ac;
+
+  Corner(const TriangleMesh& mesh, const Eigen::Vector3i& f)
+      : a(mesh.vertices[static_cast<std::size_t>(f[0])].cast<double>()),
+        ab(mesh.vertices[static_cast<std::size_t>(f[1])].cast<double>() - a),
+        ac(mesh.vertices[static_cast<std::size_t>(f[2])].cast<double>() - a) {}
+  [[nodiscard]] double area() const { return 0.5 * ab.cross(ac).norm(); }
+};
+
+/// Samples for each mm2 of face, by the options and by the number of vertices.
+double densityOn(const TriangleMesh& mesh, std::size_t vertex_count, double samples_per_mm2) {
+  double area_mm2 = 0.0;
+  for (const Eigen::Vector3i& f : mesh.faces) {
+    area_mm2 += Corner(mesh, f).area();
+  }
+  return area_mm2 > 0.0 ? std::max(samples_per_mm2, static_cast<double>(vertex_count) / area_mm2)
+                        : 0.0;
 }
 
 /// A point for each 1/density of area, at random inside it: the carry goes on from face to face,
 /// so that small faces get their share too.
 void addFaceSamples(const TriangleMesh& mesh,
-                    const MeshDistanceOptions& options,
+                    double density,
+                    const std::optional<Ball>& region,
                     std::vector<Eigen::Vector3d>& points) {
   double carry = 0.5;
   std::uint64_t counter = 0;
   for (const Eigen::Vector3i& f : mesh.faces) {
-    const Eigen::Vector3d a = mesh.vertices[static_cast<std::size_t>(f[0])].cast<double>();
-    const Eigen::Vector3d ab = mesh.vertices[static_cast<std::size_t>(f[1])].cast<double>() - a;
-    const Eigen::Vector3d ac = mesh.vertices[static_cast<std::size_t>(f[2])].cast<double>() - a;
-    carry += 0.5 * ab.cross(ac).norm() * options.samples_per_mm2;
+    const Corner corner(mesh, f);
+    carry += corner.area() * density;
     for (; carry >= 1.0; carry -= 1.0, counter += 2) {
       double u = uniform(counter);
       double v = uniform(counter + 1);
@@ -57,31 +73,34 @@ void addFaceSamples(const TriangleMesh& mesh,
         u = 1.0 - u;
         v = 1.0 - v;
       }
-      const Eigen::Vector3d p = a + u * ab + v * ac;
-      if (inside(options.region, p)) {
+      const Eigen::Vector3d p = corner.a + u * corner.ab + v * corner.ac;
+      if (inside(region, p)) {
         points.push_back(p);
       }
     }
   }
 }
 
-Samples sampleSurface(const TriangleMesh& mesh, const MeshDistanceOptions& options) {
-  Samples samples;
+/// Every used vertex, then points on the faces; only what lies in the region.
+std::vector<Eigen::Vector3d> sampleSurface(const TriangleMesh& mesh,
+                                           const MeshDistanceOptions& options) {
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Eigen::Vector3i& f : mesh.faces) {
     for (int k = 0; k < 3; ++k) {
       used[static_cast<std::size_t>(f[k])] = true;
     }
   }
+  std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d p = mesh.vertices[i].cast<double>();
     if (used[i] && inside(options.region, p)) {
-      samples.points.push_back(p);
+      points.push_back(p);
     }
   }
-  samples.vertex_count = samples.points.size();
-  addFaceSamples(mesh, options, samples.points);
-  return samples;
+  const auto vertex_count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  addFaceSamples(
+      mesh, densityOn(mesh, vertex_count, options.samples_per_mm2), options.region, points);
+  return points;
 }
 
 std::vector<double> distancesTo(const MeshIndex& index, std::span<const Eigen::Vector3d> points) {
@@ -141,11 +160,11 @@ TriangleMesh aligned(const TriangleMesh& a,
                      const TriangleMesh& b,
                      const MeshIndex& b_index,
                      const MeshDistanceOptions& options) {
-  const Samples samples = sampleSurface(a, options);
-  const std::size_t stride = samples.points.size() / kMostFitPoints + 1;
+  const std::vector<Eigen::Vector3d> samples = sampleSurface(a, options);
+  const std::size_t stride = samples.size() / kMostFitPoints + 1;
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < samples.points.size(); i += stride) {
-    points.push_back(samples.points[i]);
+  for (std::size_t i = 0; i < samples.size(); i += stride) {
+    points.push_back(samples[i]);
   }
   const RigidTransform b_from_a = fitRigidly(points, b, b_index);
   TriangleMesh moved = a;
@@ -198,15 +217,15 @@ Expected<MeshComparison> compareMeshes(const TriangleMesh& a,
   const MeshIndex b_index(b);
   const TriangleMesh placed = options.align_icp ? aligned(a, b, b_index, options) : a;
   const MeshIndex a_index(placed);
-  const Samples a_samples = sampleSurface(placed, options);
-  const Samples b_samples = sampleSurface(b, options);
-  if (a_samples.points.empty() || b_samples.points.empty()) {
+  const auto a_samples = sampleSurface(placed, options);
+  const auto b_samples = sampleSurface(b, options);
+  if (a_samples.empty() || b_samples.empty()) {
     return fail(ErrorCode::SurfaceEmpty,
-                "nothing of the " + std::string(a_samples.points.empty() ? "model" : "reference") +
+                "nothing of the " + std::string(a_samples.empty() ? "model" : "reference") +
                     " lies in the region");
   }
-  const std::vector<double> a_distances = distancesTo(b_index, a_samples.points);
-  const std::vector<double> b_distances = distancesTo(a_index, b_samples.points);
+  const std::vector<double> a_distances = distancesTo(b_index, a_samples);
+  const std::vector<double> b_distances = distancesTo(a_index, b_samples);
   MeshComparison result;
   result.a_to_b = statisticsOf(a_distances);
   result.b_to_a = statisticsOf(b_distances);

@@ -33,8 +33,10 @@ struct MeshComparison {
 };
 
 struct MeshDistanceOptions {
-  double samples_per_mm2 = 1.0;  ///< area-uniform, beside one sample at every vertex
-  bool align_icp = false;        ///< rigid point-to-plane fit of a onto b first
+  /// Area-uniform, beside one sample at every vertex, and never fewer than there are vertices:
+  /// MeshLab's filter takes as many of either kind.
+  double samples_per_mm2 = 1.0;
+  bool align_icp = false;  ///< rigid point-to-plane fit of a onto b first
   std::optional<Ball> region;
 };
 
