@@ -1,6 +1,6 @@
 #include "reconstruction/pipeline/background.h"
 
-#include "reconstruction/pipeline/surface_subset.h"
+#include "reconstruction/fusion/surface_cleanup.h"
 
 #include <Eigen/Geometry>
 #include <pcl/ModelCoefficients.h>
@@ -254,11 +254,16 @@ ForegroundResult removeBackground(const ExtractedSurface& surface,
   for (const int i : kept) {
     keep_point[static_cast<std::size_t>(i)] = true;
   }
-  std::vector<bool> keep_vertex(surface.mesh.vertices.size());
-  for (std::size_t i = 0; i < keep_vertex.size(); ++i) {
-    keep_vertex[i] = keep_point[static_cast<std::size_t>(thinned.point_of_vertex[i])];
+  const auto kept_vertex = [&](int vertex) {
+    const int point = thinned.point_of_vertex[static_cast<std::size_t>(vertex)];
+    return keep_point[static_cast<std::size_t>(point)];
+  };
+  std::vector<std::uint8_t> keep_face;
+  keep_face.reserve(surface.mesh.faces.size());
+  for (const Eigen::Vector3i& face : surface.mesh.faces) {
+    keep_face.push_back(kept_vertex(face[0]) && kept_vertex(face[1]) && kept_vertex(face[2]));
   }
-  result.surface = subsetOf(surface, keep_vertex);
+  result.surface = keepFaces(surface, keep_face);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "reconstruction/pipeline/reconstruct.h"
 
+#include "reconstruction/fusion/surface_cleanup.h"
 #include "reconstruction/pipeline/fitness.h"
 #include "reconstruction/pipeline/hashing_source.h"
 #include "reconstruction/pipeline/known_poses.h"
@@ -75,7 +76,9 @@ Expected<ExtractedSurface> keepFoot(ExtractedSurface surface,
     }
     surface = std::move(foreground.surface);
   }
-  surface = removeSmallComponents(surface);
+  // The foot is one surface; with the background kept, the scene has as many as it likes.
+  const ComponentFilter filter{.min_share_of_largest = options.keep_background ? 0.0 : 0.02};
+  surface = removeSmallComponents(surface, filter);
   result.holes = countHoles(surface.mesh);
   return surface;
 }
