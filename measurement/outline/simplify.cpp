@@ -1,0 +1,58 @@
+#include "measurement/outline/simplify.h"
+
+#include <algorithm>
+
+namespace tarsus {
+namespace {
+
+double distanceToSegment(const Eigen::Vector3d& p,
+                         const Eigen::Vector3d& a,
+                         const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+}  // namespace
+
+std::vector<int> essentialPoints(std::span<const Eigen::Vector3d> closed_mm, double tolerance_mm) {
+  const int count = static_cast<int>(closed_mm.size());
+  const auto at = [&](int i) -> const Eigen::Vector3d& { return closed_mm[i % count]; };
+  int farthest = 0;
+  for (int i = 1; i < count; ++i) {
+    if ((at(i) - at(0)).squaredNorm() > (at(farthest) - at(0)).squaredNorm()) {
+      farthest = i;
+    }
+  }
+  std::vector<char> keep(count, 0);
+  keep[0] = keep[farthest] = 1;
+  std::vector<std::pair<int, int>> open{{0, farthest}, {farthest, count}};
+  while (!open.empty()) {
+    const auto [begin, end] = open.back();
+    open.pop_back();
+    int worst = -1;
+    double worst_mm = tolerance_mm;
+    for (int i = begin + 1; i < end; ++i) {
+      const double d = distanceToSegment(at(i), at(begin), at(end));
+      if (d > worst_mm) {
+        worst = i;
+        worst_mm = d;
+      }
+    }
+    if (worst >= 0) {
+      keep[worst] = 1;
+      open.emplace_back(begin, worst);
+      open.emplace_back(worst, end);
+    }
+  }
+  std::vector<int> kept;
+  for (int i = 0; i < count; ++i) {
+    if (keep[i] != 0) {
+      kept.push_back(i);
+    }
+  }
+  return kept;
+}
+
+}  // namespace tarsus
