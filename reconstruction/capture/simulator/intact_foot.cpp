@@ -1,0 +1,237 @@
+#include "reconstruction/capture/simulator/intact_foot.h"
+
+#include "reconstruction/capture/simulator/foot_shape.h"
+#include "reconstruction/scene/ply.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+namespace tarsus {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr double kStandardLengthMm = 260.0;
+constexpr double kBaseStepMm = 1.1;  ///< the gaps between the toes are 1.6 mm
+
+struct Extent {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::max());
+  Vector3d high = Vector3d::Constant(std::numeric_limits<double>::lowest());
+};
+
+Extent extentOf(const std::vector<Vector3d>& points) {
+  Extent e;
+  for (const Vector3d& p : points) {
+    e.low = e.low.cwiseMin(p);
+    e.high = e.high.cwiseMax(p);
+  }
+  return e;
+}
+
+/// Every edge once in each direction: closed, and the faces agree about the outside.
+bool isClosed(const std::vector<Vector3i>& faces) {
+  std::vector<std::uint64_t> forward;
+  std::vector<std::uint64_t> backward;
+  for (const Vector3i& f : faces) {
+    for (int k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::uint64_t>(f[k]);
+      const auto b = static_cast<std::uint64_t>(f[(k + 1) % 3]);
+      forward.push_back((a << 32U) | b);
+      backward.push_back((b << 32U) | a);
+    }
+  }
+  std::ranges::sort(forward);
+  std::ranges::sort(backward);
+  return forward == backward && std::ranges::adjacent_find(forward) == forward.end();
+}
+
+double signedVolume(const DenseMesh& mesh) {
+  double sum = 0.0;
+  for (const Vector3i& f : mesh.faces) {
+    sum += mesh.positions[static_cast<std::size_t>(f[0])].dot(
+        mesh.positions[static_cast<std::size_t>(f[1])].cross(
+            mesh.positions[static_cast<std::size_t>(f[2])]));
+  }
+  return sum / 6.0;
+}
+
+/// Area that faces `outward` among the outermost 12 % of the mesh on that side: the sole has most.
+double flatArea(const DenseMesh& mesh, const Vector3d& outward) {
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (const Vector3d& p : mesh.positions) {
+    low = std::min(low, p.dot(outward));
+    high = std::max(high, p.dot(outward));
+  }
+  double area = 0.0;
+  for (const Vector3i& f : mesh.faces) {
+    const Vector3d& a = mesh.positions[static_cast<std::size_t>(f[0])];
+    const Vector3d n = (mesh.positions[static_cast<std::size_t>(f[1])] - a)
+                           .cross(mesh.positions[static_cast<std::size_t>(f[2])] - a);
+    if (n.dot(outward) > 0.85 * n.norm() && a.dot(outward) > high - 0.12 * (high - low)) {
+      area += 0.5 * n.norm();
+    }
+  }
+  return area;
+}
+
+void rotate(DenseMesh& mesh, const Matrix3d& r) {
+  for (Vector3d& p : mesh.positions) {
+    p = r * p;
+  }
+}
+
+/// Rows x (heel to toes), y, z (up the leg) of a standing foot, found from the shape alone.
+Matrix3d standingAxes(const DenseMesh& mesh) {
+  const Vector3d mean =
+      std::accumulate(mesh.positions.begin(), mesh.positions.end(), Vector3d(0, 0, 0)) /
+      static_cast<double>(mesh.positions.size());
+  Matrix3d scatter = Matrix3d::Zero();
+  for (const Vector3d& p : mesh.positions) {
+    scatter += (p - mean) * (p - mean).transpose();
+  }
+  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors();
+  const Vector3d length = axes.col(2);
+  Vector3d up = axes.col(0);
+  double sole = 0.0;
+  for (int k = 0; k < 36; ++k) {  // the sole is not quite along a principal axis: turn about length
+    const Vector3d down = Eigen::AngleAxisd(k * 3.14159265358979 / 18.0, length) * axes.col(0);
+    const double area = flatArea(mesh, down);
+    if (area > sole) {
+      sole = area;
+      up = -down;
+    }
+  }
+  // The end of the leg lies over the heel.
+  double top = std::numeric_limits<double>::lowest();
+  for (const Vector3d& p : mesh.positions) {
+    top = std::max(top, (p - mean).dot(up));
+  }
+  double leg = 0.0;
+  for (const Vector3d& p : mesh.positions) {
+    leg += (p - mean).dot(up) > 0.8 * top ? (p - mean).dot(length) : 0.0;
+  }
+  Matrix3d rows;
+  rows.row(0) = leg > 0.0 ? -length : length;
+  rows.row(2) = up;
+  rows.row(1) = up.cross(Vector3d(rows.row(0)));
+  return rows;
+}
+
+/// Turns the foot about y until the heel and the ball stand level.
+double levelPitch(const DenseMesh& mesh, const Extent& e) {
+  const double length = e.high.x() - e.low.x();
+  const auto lowestIn = [&](double from, double to) {
+    Vector3d best = Vector3d::Constant(std::numeric_limits<double>::max());
+    for (const Vector3d& p : mesh.positions) {
+      const double s = (p.x() - e.low.x()) / length;
+      best = s > from && s < to && p.z() < best.z() ? p : best;
+    }
+    return best;
+  };
+  const Vector3d heel = lowestIn(0.0, 0.25);
+  const Vector3d ball = lowestIn(0.6, 0.8);
+  return std::atan2(ball.z() - heel.z(), ball.x() - heel.x());
+}
+
+void placeLandmarks(IntactFoot& foot) {
+  const auto at = [&](double x_share, double y) {
+    return foot.fromStandard({x_share * kStandardLengthMm, y, 0.0});
+  };
+  foot.heel = Vector3d(std::numeric_limits<double>::max(), 0, 0);
+  foot.toe = Vector3d(std::numeric_limits<double>::lowest(), 0, 0);
+  for (const Vector3d& p : foot.mesh.positions) {
+    if (p.z() < 0.16 * foot.length_mm && p.x() < foot.heel.x()) {
+      foot.heel = p;
+    }
+    // The second toe: between the big toe and the third.
+    const bool second = std::abs(p.y() - at(0.93, 7.0).y()) < 5.0 * foot.length_mm / 260.0;
+    if (second && p.x() > foot.toe.x()) {
+      foot.toe = p;
+    }
+  }
+}
+
+}  // namespace
+
+Vector3d IntactFoot::fromStandard(const Vector3d& p) const {
+  const double scale = length_mm / kStandardLengthMm;
+  return {scale * p.x(), scale * medial_y * p.y(), scale * p.z()};
+}
+
+Vector3d IntactFoot::toStandard(const Vector3d& p) const {
+  const double scale = kStandardLengthMm / length_mm;
+  return {scale * p.x(), scale * medial_y * p.y(), scale * p.z()};
+}
+
+IntactFoot makeOwnFoot() {
+  const auto shape = std::make_shared<const FootShape>();
+  IntactFoot foot;
+  foot.distance = [shape](const Vector3d& p) { return shape->distance(p); };
+  foot.project = [shape](const Vector3d& p) { return shape->project(p); };
+  foot.mesh = meshZeroSet({.distance = foot.distance,
+                           .project = foot.project,
+                           .lower = FootShape::lowerCorner(),
+                           .upper = FootShape::upperCorner()},
+                          kBaseStepMm);
+  placeLandmarks(foot);
+  return foot;
+}
+
+Expected<IntactFoot> loadFoot(const std::filesystem::path& path) {
+  auto read = readObj(path);
+  if (!read) {
+    return tl::unexpected(read.error());
+  }
+  if (!isClosed(read->faces)) {
+    return fail(ErrorCode::MeshInvalid,
+                path.string() +
+                    " is not a closed surface: give a foot mesh without holes, all "
+                    "faces turned outward");
+  }
+  IntactFoot foot;
+  foot.mesh.faces = std::move(read->faces);
+  for (const Eigen::Vector3f& p : read->vertices) {
+    foot.mesh.positions.emplace_back(p.cast<double>());
+  }
+  Extent e = extentOf(foot.mesh.positions);
+  if ((e.high - e.low).maxCoeff() < 2.0) {  // metres
+    for (Vector3d& p : foot.mesh.positions) {
+      p *= 1000.0;
+    }
+  }
+  if (signedVolume(foot.mesh) < 0.0) {
+    for (Vector3i& f : foot.mesh.faces) {
+      std::swap(f[1], f[2]);
+    }
+  }
+  rotate(foot.mesh, standingAxes(foot.mesh));
+  e = extentOf(foot.mesh.positions);
+  rotate(foot.mesh,
+         Eigen::AngleAxisd(levelPitch(foot.mesh, e), Vector3d::UnitY()).toRotationMatrix());
+  e = extentOf(foot.mesh.positions);
+  foot.length_mm = e.high.x() - e.low.x();
+  if (foot.length_mm < 80.0 || foot.length_mm > 400.0) {
+    return fail(ErrorCode::MeshInvalid,
+                path.string() + " is " + std::to_string(foot.length_mm) +
+                    " mm long: expected a foot of 80-400 mm, in metres or millimetres");
+  }
+  for (Vector3d& p : foot.mesh.positions) {
+    p -= Vector3d(e.low.x(), 0.5 * (e.low.y() + e.high.y()), e.low.z());
+  }
+  const auto tip =
+      std::ranges::max_element(foot.mesh.positions, {}, [](const Vector3d& p) { return p.x(); });
+  foot.medial_y = tip->y() > 0.0 ? 1.0 : -1.0;
+  placeLandmarks(foot);
+  return foot;
+}
+
+}  // namespace tarsus

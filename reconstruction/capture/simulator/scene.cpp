@@ -1,0 +1,109 @@
+#include "reconstruction/capture/simulator/camera_path.h"
+#include "reconstruction/capture/simulator/simulator.h"
+#include "reconstruction/capture/simulator/skin_color.h"
+#include "reconstruction/capture/simulator/surroundings.h"
+#include "reconstruction/capture/simulator/truth.h"
+#include "reconstruction/capture/simulator/ulcer_designs.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace tarsus {
+namespace {
+
+using Eigen::Vector3d;
+
+std::chrono::microseconds toMicroseconds(double seconds) {
+  return std::chrono::microseconds(std::llround(seconds * 1e6));
+}
+
+Expected<void> checkOptions(const SimulatorOptions& options) {
+  if (options.frames < 1) {
+    return fail(ErrorCode::BadOption, "the number of frames must be at least 1");
+  }
+  if (!(options.noise >= 0.0) || !(options.jitter_mm >= 0.0)) {
+    return fail(ErrorCode::BadOption, "noise and jitter must not be negative");
+  }
+  return {};
+}
+
+TriangleMesh moved(const DenseMesh& mesh, const RigidTransform& scan_from_foot) {
+  TriangleMesh out;
+  out.faces = mesh.faces;
+  out.vertices.reserve(mesh.positions.size());
+  for (const Vector3d& p : mesh.positions) {
+    out.vertices.push_back((scan_from_foot * p).cast<float>());
+  }
+  out.normals = vertexNormals(out);
+  return out;
+}
+
+void move(TexturedMesh& mesh, const RigidTransform& scan_from_foot) {
+  for (Eigen::Vector3f& p : mesh.mesh.vertices) {
+    p = (scan_from_foot * p.cast<double>()).cast<float>();
+  }
+  for (Eigen::Vector3f& n : mesh.mesh.normals) {
+    n = (scan_from_foot.linear() * n.cast<double>()).cast<float>();
+  }
+}
+
+void move(WoundTruth& truth, const RigidTransform& scan_from_foot) {
+  truth.center_mm = scan_from_foot * truth.center_mm;
+  for (Vector3d& p : truth.outline_mm) {
+    p = scan_from_foot * p;
+  }
+  for (Vector3d& p : truth.skin_curve_mm) {
+    p = scan_from_foot * p;
+  }
+}
+
+Trajectory truePoses(const SimulatorOptions& options, const RigidTransform& scan_from_foot) {
+  Trajectory trajectory;
+  for (int i = 0; i < options.frames; ++i) {
+    const double time_s = frameTime(options, i);
+    FramePose pose{.frame_index = i, .timestamp = toMicroseconds(time_s)};
+    pose.scan_from_camera = i == 0
+                                ? RigidTransform::Identity()
+                                : RigidTransform(scan_from_foot * footFromCamera(options, time_s));
+    pose.inlier_fraction = 1.0;
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOptions& options) {
+  if (auto ok = checkOptions(options); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  Expected<IntactFoot> foot = options.mesh.empty() ? makeOwnFoot() : loadFoot(options.mesh);
+  if (!foot) {
+    return tl::unexpected(foot.error());
+  }
+  const Expected<CarvedFoot> carved = carveUlcers(*foot, ulcerDesigns(options.foot));
+  if (!carved) {
+    return tl::unexpected(carved.error());
+  }
+  const RigidTransform scan_from_foot = footFromCamera(options, 0.0).inverse();
+  auto scene = std::make_shared<SimulatedScene>();
+  scene->foot.mesh =
+      moved({.positions = carved->carved, .faces = carved->intact.faces}, scan_from_foot);
+  scene->foot.colors = paintFoot(*foot, *carved);
+  scene->foot.comments = {"simulated foot, the truth of a simulated scan"};
+  scene->intact_foot = moved(carved->intact, scan_from_foot);
+  scene->surroundings = makeSurroundings(*foot);
+  move(scene->surroundings, scan_from_foot);
+  for (std::size_t i = 0; i < carved->ulcers.size(); ++i) {
+    WoundTruth truth = measureTruth(*foot, *carved, static_cast<int>(i));
+    move(truth, scan_from_foot);
+    scene->wounds.push_back(std::move(truth));
+  }
+  scene->heel_mm = scan_from_foot * foot->heel;
+  scene->toe_mm = scan_from_foot * foot->toe;
+  scene->trajectory = truePoses(options, scan_from_foot);
+  return scene;
+}
+
+}  // namespace tarsus

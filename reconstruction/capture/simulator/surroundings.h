@@ -1,0 +1,12 @@
+#pragma once
+
+#include "reconstruction/capture/simulator/intact_foot.h"
+#include "reconstruction/scene/mesh.h"
+
+namespace tarsus {
+
+/// The bench that carries the calf, and the wall behind it; foot frame [mm]. The patient lies: the
+/// leg is level, the toes point up, the foot reaches over the bench's edge.
+[[nodiscard]] TexturedMesh makeSurroundings(const IntactFoot& foot);
+
+}  // namespace tarsus
