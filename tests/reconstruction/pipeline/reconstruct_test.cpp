@@ -1,0 +1,180 @@
+// The whole way from frames to model, on a simulated foot whose truth is known.
+#include "reconstruction/pipeline/reconstruct.h"
+
+#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/simulator/simulator.h"
+#include "reconstruction/capture/trajectory_file.h"
+#include "reconstruction/pipeline/model_folder.h"
+#include "reconstruction/scene/mesh_index.h"
+#include "reconstruction/scene/ply.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tarsus {
+namespace {
+
+/// One simulated foot for all tests here: building it takes seconds.
+class ReconstructScan : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    simulation_.frames = 60;  // ten times the step of a real scan
+    auto scene = buildScene(simulation_);
+    ASSERT_TRUE(scene) << describe(scene.error());
+    scene_ = *scene;
+  }
+  static void TearDownTestSuite() { scene_.reset(); }
+
+  static ScanOpener opener() {
+    return [](const FrameContent&) { return openSimulator(scene_, simulation_); };
+  }
+
+  static inline SimulatorOptions simulation_;
+  static inline std::shared_ptr<const SimulatedScene> scene_;
+};
+
+/// Root mean square distance of camera positions to the truth (design.md section 5).
+double trajectoryRmse(const Trajectory& estimated, const Trajectory& truth) {
+  double sum = 0.0;
+  int count = 0;
+  for (const FramePose& pose : estimated) {
+    const auto expected = poseAt(truth, pose.timestamp, std::chrono::microseconds(1000));
+    if (pose.scan_from_camera && expected) {
+      sum += (pose.scan_from_camera->translation() - expected->translation()).squaredNorm();
+      ++count;
+    }
+  }
+  return std::sqrt(sum / std::max(1, count));
+}
+
+/// Distances of the model's vertices to the true foot, sorted [mm].
+std::vector<double> distancesToFoot(const TriangleMesh& model, const TriangleMesh& foot) {
+  const MeshIndex index(foot);
+  std::vector<double> distances;
+  for (const Eigen::Vector3f& v : model.vertices) {
+    const auto nearest = index.nearest(v.cast<double>(), 1000.0);
+    distances.push_back(nearest ? nearest->distance_mm : 1000.0);
+  }
+  std::ranges::sort(distances);
+  return distances;
+}
+
+TEST_F(ReconstructScan, FindsTheFootAndOnlyTheFoot) {
+  ScanOptions options;
+  options.texture = false;
+  auto result = reconstructScan(opener(), options, {});
+  ASSERT_TRUE(result) << describe(result.error());
+  EXPECT_EQ(result->frames_tracked, 60);
+  EXPECT_TRUE(result->fitForMeasurement());
+  // 1 mm: twice what a whole scan of 600 frames must reach, with a tenth of the frames.
+  EXPECT_LE(trajectoryRmse(result->trajectory, scene_->trajectory), 1.0);
+  const auto distances = distancesToFoot(result->model.mesh, scene_->foot.mesh);
+  EXPECT_LE(distances[distances.size() * 95 / 100], 1.0);
+  EXPECT_LE(distances.back(), 5.0);  // no piece of bench or wall, no flying shell
+  EXPECT_TRUE(result->trajectory.front().scan_from_camera->isApprox(RigidTransform::Identity()));
+}
+
+TEST_F(ReconstructScan, WithTheBackgroundKeptThereIsMore) {
+  ScanOptions options;
+  options.texture = false;
+  options.keep_background = true;
+  options.trajectory = scene_->trajectory;
+  auto result = reconstructScan(opener(), options, {});
+  ASSERT_TRUE(result) << describe(result.error());
+  EXPECT_GE(distancesToFoot(result->model.mesh, scene_->foot.mesh).back(), 50.0);
+  EXPECT_FALSE(result->tracking_rmse_mm);
+  EXPECT_LE(trajectoryRmse(result->trajectory, scene_->trajectory), 1e-9);
+}
+
+TEST_F(ReconstructScan, SameScanSameBitsWhateverTheThreads) {
+  ScanOptions options;
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  auto once = reconstructScan(opener(), options, {});
+  omp_set_num_threads(3);
+  auto again = reconstructScan(opener(), options, {});
+  omp_set_num_threads(threads);
+  ASSERT_TRUE(once && again);
+  EXPECT_EQ(once->model.sha256, again->model.sha256);
+  EXPECT_EQ(once->scan_sha256, again->scan_sha256);
+  EXPECT_EQ(once->model.mesh.normals, again->model.mesh.normals);
+  EXPECT_EQ(once->model.sigma_mm, again->model.sigma_mm);
+}
+
+TEST_F(ReconstructScan, TheTextureShowsTheFootAndTheFolderIsWhole) {
+  const TemporaryFolder folder;
+  const ScanOptions options;
+  auto result = reconstructScan(opener(), options, {});
+  ASSERT_TRUE(result) << describe(result.error());
+  ASSERT_TRUE(result->photometric_rmse_before && result->photometric_rmse_after);
+  EXPECT_LT(*result->photometric_rmse_after, *result->photometric_rmse_before);
+  EXPECT_LT(result->unseen_fraction, 0.3);
+  ASSERT_TRUE(writeModelFolder(folder.path(), *result, options, "1.2.3"));
+
+  auto model = readPly(folder.path() / "model.ply");
+  ASSERT_TRUE(model) << describe(model.error());
+  EXPECT_EQ(model->sha256, result->model.sha256);
+  EXPECT_EQ(model->unseen, result->model.unseen);
+  EXPECT_NE(std::ranges::find(model->comments, "fit_for_measurement yes"), model->comments.end());
+  auto trajectory = readTrajectory(folder.path() / "trajectory.txt");
+  ASSERT_TRUE(trajectory);
+  EXPECT_EQ(trajectory->size(), 60U);
+  auto keyframes = openScanFolder(folder.path() / "keyframes");
+  ASSERT_TRUE(keyframes) << describe(keyframes.error());
+  EXPECT_EQ((*keyframes)->frameCount(), static_cast<int>(result->keyframes.size()));
+
+  const nlohmann::json json = toJson(*result, options, "1.2.3");
+  for (const char* key : {"frames_total",
+                          "frames_tracked",
+                          "frames_lost",
+                          "relocalisations",
+                          "tracking_rmse_mm",
+                          "loop_residual_mm",
+                          "vertices",
+                          "faces",
+                          "unseen_fraction",
+                          "keyframes",
+                          "photometric_rmse_before",
+                          "photometric_rmse_after",
+                          "stages",
+                          "peak_memory_mb",
+                          "origin_timestamp",
+                          "fit_for_measurement",
+                          "refusal_reasons",
+                          "options",
+                          "version",
+                          "warnings"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+}
+
+TEST_F(ReconstructScan, StopsWhenAsked) {
+  std::stop_source stop;
+  int reports = 0;
+  const Job job{.stop = stop.get_token(), .report = [&](std::string_view, double) {
+                  if (++reports == 5) {
+                    stop.request_stop();
+                  }
+                }};
+  auto result = reconstructScan(opener(), {}, job);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
+}
+
+TEST_F(ReconstructScan, PosesOfAnotherScanAreRefused) {
+  ScanOptions options;
+  options.trajectory = Trajectory{{.frame_index = 0,
+                                   .timestamp = std::chrono::hours(1),
+                                   .scan_from_camera = RigidTransform::Identity()}};
+  auto result = reconstructScan(opener(), options, {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::TrajectoryInvalid);
+}
+
+}  // namespace
+}  // namespace tarsus
