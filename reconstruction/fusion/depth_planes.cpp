@@ -1,12 +1,12 @@
 #include "reconstruction/fusion/depth_planes.h"
 
 #include "reconstruction/base/parallel.h"
+#include "reconstruction/fusion/vector_code.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 namespace tarsus {
 namespace {
@@ -39,6 +39,10 @@ constexpr std::array<Offset, 12> kHalfWindow{{{1, 0},
                                               {1, 2},
                                               {2, 2}}};
 
+double slopeLimit(const DepthPlaneOptions& options) {
+  return std::tan(options.max_incidence_deg * std::numbers::pi / 180.0);
+}
+
 /// Sums of the least-squares problem for a row of pixels.
 struct RowSums {
   explicit RowSums(std::size_t width)
@@ -51,20 +55,27 @@ struct RowSums {
   std::vector<float> count, uu, uv, vv, bu, bv;
 };
 
-/// What a row of neighbours is compared with.
+/// A row of pixels and its opposite neighbours: z and q = 1/z, from the row's first pixel on.
 struct PairRows {
   const float* z_middle;
   const float* z_plus;
   const float* z_minus;
   const float* q_plus;
   const float* q_minus;
+  float du;
+  float dv;
   float max_step_per_depth;  ///< largest |z+ - z-| per mm of depth on a surface still seen
 };
 
-/// Plain loops over rows: the compiler turns them into vector code.
-void addPairs(RowSums& sums, const PairRows& rows, Offset offset, int begin, int end) {
-  const auto du = static_cast<float>(offset.du);
-  const auto dv = static_cast<float>(offset.dv);
+TARSUS_VECTOR_CODE void addPairs(RowSums& sums, const PairRows& rows, int begin, int end) {
+  const float du = rows.du;
+  const float dv = rows.dv;
+  const float max_step = rows.max_step_per_depth;
+  const float* const z_middle = rows.z_middle;
+  const float* const z_plus = rows.z_plus;
+  const float* const z_minus = rows.z_minus;
+  const float* const q_plus = rows.q_plus;
+  const float* const q_minus = rows.q_minus;
   float* const count = sums.count.data();
   float* const uu = sums.uu.data();
   float* const uv = sums.uv.data();
@@ -73,33 +84,89 @@ void addPairs(RowSums& sums, const PairRows& rows, Offset offset, int begin, int
   float* const bv = sums.bv.data();
 #pragma GCC ivdep
   for (int u = begin; u < end; ++u) {
-    const float z = rows.z_middle[u];
-    const float bend = std::abs(rows.z_plus[u] + rows.z_minus[u] - 2.0F * z);
-    const float step = std::abs(rows.z_plus[u] - rows.z_minus[u]);
+    const float z = z_middle[u];
+    const float bend = std::abs(z_plus[u] + z_minus[u] - 2.0F * z);
+    const float step = std::abs(z_plus[u] - z_minus[u]);
     const float bend_ok = bend < 2.0F * (kBendBase_mm + kBendPerDepth * z) ? 1.0F : 0.0F;
-    const float good = step < rows.max_step_per_depth * z ? bend_ok : 0.0F;
-    const float slope = good * 0.5F * (rows.q_plus[u] - rows.q_minus[u]);
+    const float good = step < max_step * z ? bend_ok : 0.0F;
+    const float slope = good * 0.5F * (q_plus[u] - q_minus[u]);
     count[u] += good;
-    uu[u] += good * du * du;
-    uv[u] += good * du * dv;
-    vv[u] += good * dv * dv;
+    uu[u] += good * (du * du);
+    uv[u] += good * (du * dv);
+    vv[u] += good * (dv * dv);
     bu[u] += slope * du;
     bv[u] += slope * dv;
   }
 }
 
+/// What turns a row's sums into planes.
+struct RowFrame {
+  const float* z;
+  const float* q;
+  float fx, fy, cx, dv;  ///< dv: the row less the principal point
+  float min_cosine;
+};
+
+struct PlaneRow {
+  float* nx;
+  float* ny;
+  float* nz;
+  float* offset_mm;
+  float* quality;
+  float* depth_mm;
+};
+
+/// n is proportional to (fx q_u, fy q_v, q - q_u du - q_v dv), the gradient of 1/z.
+TARSUS_VECTOR_CODE void solveRow(
+    const RowSums& sums, const RowFrame& frame, const PlaneRow& row, int begin, int end) {
+  const float* const z = frame.z;
+  const float* const q = frame.q;
+  const float* const count = sums.count.data();
+  const float* const uu = sums.uu.data();
+  const float* const uv = sums.uv.data();
+  const float* const vv = sums.vv.data();
+  const float* const bu = sums.bu.data();
+  const float* const bv = sums.bv.data();
+  const RowFrame f = frame;
+  const PlaneRow out = row;
+#pragma GCC ivdep
+  for (int u = begin; u < end; ++u) {
+    const float determinant = uu[u] * vv[u] - uv[u] * uv[u];
+    const float inverse = 1.0F / std::max(determinant, 1.0F);
+    const float qu = (bu[u] * vv[u] - bv[u] * uv[u]) * inverse;
+    const float qv = (bv[u] * uu[u] - bu[u] * uv[u]) * inverse;
+    const float du = static_cast<float>(u) - f.cx;
+    const float gx = -f.fx * qu;
+    const float gy = -f.fy * qv;
+    const float gz = qu * du + qv * f.dv - q[u];
+    const float scale = 1.0F / std::sqrt(std::max(gx * gx + gy * gy + gz * gz, 1e-20F));
+    const float rx = du / f.fx;
+    const float ry = f.dv / f.fy;
+    const float along = (gx * rx + gy * ry + gz) * scale;
+    const float cosine = -along / std::sqrt(rx * rx + ry * ry + 1.0F);
+    const bool good = (z[u] > 0.0F) & (count[u] >= kMinPairs) & (determinant >= kMinDeterminant) &
+                      (cosine >= f.min_cosine);
+    out.nx[u] = good ? gx * scale : 0.0F;
+    out.ny[u] = good ? gy * scale : 0.0F;
+    out.nz[u] = good ? gz * scale : 0.0F;
+    out.offset_mm[u] = good ? -z[u] * along : DepthPlanes::kNoPlane_mm;
+    out.quality[u] = good ? cosine : 0.0F;
+    out.depth_mm[u] = good ? z[u] : 0.0F;
+  }
+}
+
 /// Gives an unmeasured pixel the mean of the two opposite neighbours at `shift` where they belong
 /// to one surface.
-std::vector<float> gapsFilled(const std::vector<float>& z, std::size_t shift, float max_step) {
-  std::vector<float> filled = z;
-  for (std::size_t i = shift; i + shift < z.size(); ++i) {
+TARSUS_VECTOR_CODE void fillGaps(
+    const float* z, float* filled, std::size_t count, std::size_t shift, float max_step) {
+#pragma GCC ivdep
+  for (std::size_t i = shift; i < count - shift; ++i) {
     const float before = z[i - shift];
     const float after = z[i + shift];
     const bool agree =
-        before > 0.0F && after > 0.0F && std::abs(after - before) < max_step * before;
-    filled[i] = z[i] <= 0.0F && agree ? 0.5F * (before + after) : z[i];
+        (before > 0.0F) & (after > 0.0F) & (std::abs(after - before) < max_step * before);
+    filled[i] = (z[i] <= 0.0F) & agree ? 0.5F * (before + after) : z[i];
   }
-  return filled;
 }
 
 /// Depths in range, without the gaps one pixel wide that registering depth to colour leaves in
@@ -113,41 +180,46 @@ std::vector<float> usableDepth(const Intrinsics& intrinsics,
   for (float& value : z) {
     value = value >= nearest && value <= farthest ? value : 0.0F;
   }
-  const double slope = std::tan(options.max_incidence_deg * std::numbers::pi / 180.0);
-  z = gapsFilled(z, 1, static_cast<float>(2.0 * slope / intrinsics.fx_px));
-  return gapsFilled(z,
-                    static_cast<std::size_t>(intrinsics.width),
-                    static_cast<float>(2.0 * slope / intrinsics.fy_px));
+  const double slope = slopeLimit(options);
+  const auto width = static_cast<std::size_t>(intrinsics.width);
+  std::vector<float> filled = z;
+  fillGaps(
+      z.data(), filled.data(), z.size(), 1, static_cast<float>(2.0 * slope / intrinsics.fx_px));
+  z = filled;
+  fillGaps(
+      filled.data(), z.data(), z.size(), width, static_cast<float>(2.0 * slope / intrinsics.fy_px));
+  return z;
 }
 
 class PlaneFitter {
  public:
-  PlaneFitter(DepthPlanes& result, std::span<const float> z, const DepthPlaneOptions& options)
+  PlaneFitter(DepthPlanes& result, std::vector<float> z, const DepthPlaneOptions& options)
       : result_(result),
-        z_(z),
-        q_(z.size()),
+        z_(std::move(z)),
+        q_(z_.size()),
         min_cosine_(
             static_cast<float>(std::cos(options.max_incidence_deg * std::numbers::pi / 180.0))),
-        max_slope_(
-            static_cast<float>(std::tan(options.max_incidence_deg * std::numbers::pi / 180.0))) {
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      q_[i] = z[i] > 0.0F ? 1.0F / z[i] : 0.0F;
+        max_slope_(static_cast<float>(slopeLimit(options))) {
+    for (std::size_t i = 0; i < z_.size(); ++i) {
+      q_[i] = z_[i] > 0.0F ? 1.0F / z_[i] : 0.0F;
     }
   }
 
+  /// @return how many pixels got a plane
   int fitRows(int first_row, int end_row) {
-    const int width = result_.intrinsics.width;
-    const int height = result_.intrinsics.height;
-    RowSums sums(static_cast<std::size_t>(width));
+    const Intrinsics& k = result_.intrinsics;
+    const int end_u = k.width - kRadius;
+    RowSums sums(static_cast<std::size_t>(k.width));
     int valid = 0;
-    for (int v = std::max(first_row, kRadius); v < std::min(end_row, height - kRadius); ++v) {
+    for (int v = std::max(first_row, kRadius); v < std::min(end_row, k.height - kRadius); ++v) {
       sums.clear();
       for (const Offset& offset : kHalfWindow) {
-        addPairs(sums, rowsFor(offset, v), offset, kRadius, width - kRadius);
+        addPairs(sums, rowsFor(offset, v), kRadius, end_u);
       }
-      for (int u = kRadius; u < width - kRadius; ++u) {
-        valid += store(sums, u, v) ? 1 : 0;
-      }
+      solveRow(sums, frameFor(v), planesFor(v), kRadius, end_u);
+      const auto row = result_.quality.begin() + static_cast<std::ptrdiff_t>(result_.index(0, v));
+      valid += static_cast<int>(
+          std::count_if(row, row + k.width, [](float quality) { return quality > 0.0F; }));
     }
     return valid;
   }
@@ -157,49 +229,43 @@ class PlaneFitter {
     const auto width = static_cast<std::ptrdiff_t>(result_.intrinsics.width);
     const std::ptrdiff_t middle = v * width;
     const std::ptrdiff_t shift = offset.dv * width + offset.du;
-    const float reach = std::hypot(static_cast<float>(offset.du), static_cast<float>(offset.dv));
+    const auto du = static_cast<float>(offset.du);
+    const auto dv = static_cast<float>(offset.dv);
     const auto focal =
         static_cast<float>(std::min(result_.intrinsics.fx_px, result_.intrinsics.fy_px));
+    // Half as much again as the steepest surface, for noise: the incidence itself is checked later.
+    const float max_step = 2.0F * std::hypot(du, dv) * 1.5F * max_slope_ / focal;
     return {.z_middle = z_.data() + middle,
             .z_plus = z_.data() + middle + shift,
             .z_minus = z_.data() + middle - shift,
             .q_plus = q_.data() + middle + shift,
             .q_minus = q_.data() + middle - shift,
-            .max_step_per_depth = 2.0F * reach * 1.5F * max_slope_ / focal};
+            .du = du,
+            .dv = dv,
+            .max_step_per_depth = max_step};
   }
-
-  bool store(const RowSums& sums, int u, int v) {
-    const std::size_t i = result_.index(u, v);
-    const auto column = static_cast<std::size_t>(u);
-    const float determinant = sums.uu[column] * sums.vv[column] - sums.uv[column] * sums.uv[column];
-    if (z_[i] <= 0.0F || sums.count[column] < kMinPairs || determinant < kMinDeterminant) {
-      return false;
-    }
-    const float qu =
-        (sums.bu[column] * sums.vv[column] - sums.bv[column] * sums.uv[column]) / determinant;
-    const float qv =
-        (sums.bv[column] * sums.uu[column] - sums.bu[column] * sums.uv[column]) / determinant;
+  [[nodiscard]] RowFrame frameFor(int v) const {
     const Intrinsics& k = result_.intrinsics;
-    const float du = static_cast<float>(u - k.cx_px);
-    const float dv = static_cast<float>(v - k.cy_px);
-    const Eigen::Vector3f ray(
-        du / static_cast<float>(k.fx_px), dv / static_cast<float>(k.fy_px), 1.0F);
-    const Eigen::Vector3f n = -Eigen::Vector3f(static_cast<float>(k.fx_px) * qu,
-                                               static_cast<float>(k.fy_px) * qv,
-                                               q_[i] - qu * du - qv * dv)
-                                   .normalized();
-    const float cosine = -n.dot(ray) / ray.norm();
-    if (!(cosine >= min_cosine_)) {
-      return false;
-    }
-    result_.planes[i] = {n.x(), n.y(), n.z(), -z_[i] * n.dot(ray)};
-    result_.quality[i] = cosine;
-    result_.depth_mm[i] = z_[i];
-    return true;
+    return {.z = z_.data() + result_.index(0, v),
+            .q = q_.data() + result_.index(0, v),
+            .fx = static_cast<float>(k.fx_px),
+            .fy = static_cast<float>(k.fy_px),
+            .cx = static_cast<float>(k.cx_px),
+            .dv = static_cast<float>(v - k.cy_px),
+            .min_cosine = min_cosine_};
+  }
+  [[nodiscard]] PlaneRow planesFor(int v) {
+    const std::size_t first = result_.index(0, v);
+    return {.nx = result_.nx.data() + first,
+            .ny = result_.ny.data() + first,
+            .nz = result_.nz.data() + first,
+            .offset_mm = result_.offset_mm.data() + first,
+            .quality = result_.quality.data() + first,
+            .depth_mm = result_.depth_mm.data() + first};
   }
 
   DepthPlanes& result_;
-  std::span<const float> z_;
+  std::vector<float> z_;
   std::vector<float> q_;
   float min_cosine_;
   float max_slope_;
@@ -212,14 +278,17 @@ DepthPlanes fitDepthPlanes(const Intrinsics& intrinsics,
                            const DepthPlaneOptions& options) {
   TARSUS_REQUIRE(depth.width() == intrinsics.width && depth.height() == intrinsics.height,
                  "the depth image has the size its camera states");
-  const std::size_t count = depth.pixels().size();
+  const std::size_t count = depth.pixels().size() + 1;
   DepthPlanes result;
   result.intrinsics = intrinsics;
-  result.planes.resize(count);
-  result.quality.resize(count);
-  result.depth_mm.resize(count);
-  const std::vector<float> z = usableDepth(intrinsics, depth, options);
-  PlaneFitter fitter(result, z, options);
+  for (auto* values : {&result.nx, &result.ny, &result.nz, &result.quality, &result.depth_mm}) {
+    values->resize(count);
+  }
+  result.offset_mm.resize(count, DepthPlanes::kNoPlane_mm);
+  if (intrinsics.width <= 2 * kRadius || intrinsics.height <= 2 * kRadius) {
+    return result;
+  }
+  PlaneFitter fitter(result, usableDepth(intrinsics, depth, options), options);
   const int tasks = (intrinsics.height + kRowsPerTask - 1) / kRowsPerTask;
   std::vector<int> valid(static_cast<std::size_t>(tasks));
   parallelFor(tasks, [&](int task) {

@@ -6,25 +6,27 @@
 
 namespace tarsus {
 
-/// A depth image made ready for fusion: one tangent plane for each pixel that can be trusted.
+/// A depth image made ready for fusion: one tangent plane for each pixel that can be trusted,
+///   n . x + offset = distance of x before the surface [mm], camera frame, n towards the camera.
 /// Pixels at depth discontinuities, where flying pixels live, and at grazing incidence have none.
+/// All arrays are row-major and end with one extra entry without a plane, for points outside the
+/// image.
 struct DepthPlanes {
-  /// n . x + offset = distance of x before the surface [mm], camera frame, n towards the camera.
-  struct Plane {
-    float nx = 0.0F;
-    float ny = 0.0F;
-    float nz = 0.0F;
-    float offset = 0.0F;
-  };
+  /// Offset where there is no plane: farther off than any band reaches.
+  static constexpr float kNoPlane_mm = 1e9F;
+
   Intrinsics intrinsics;
-  std::vector<Plane> planes;    ///< row-major
+  std::vector<float> nx, ny, nz, offset_mm;
   std::vector<float> quality;   ///< cosine of the angle of incidence; 0 where there is no plane
-  std::vector<float> depth_mm;  ///< z of those pixels, as measured; 0 elsewhere
+  std::vector<float> depth_mm;  ///< z of the pixels with a plane; 0 elsewhere
   int valid_count = 0;
 
   [[nodiscard]] std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(intrinsics.width) +
            static_cast<std::size_t>(u);
+  }
+  [[nodiscard]] Eigen::Vector3f normal(std::size_t pixel) const {
+    return {nx[pixel], ny[pixel], nz[pixel]};
   }
 };
 
@@ -36,6 +38,7 @@ struct DepthPlaneOptions {
 
 /// Fits the planes over 5 x 5 pixels: least squares on 1/z, which is linear in the pixel on a
 /// plane, from pairs of opposite neighbours that continue the surface through the middle pixel.
+/// Gaps one pixel wide are bridged first where both sides belong to one surface.
 [[nodiscard]] DepthPlanes fitDepthPlanes(const Intrinsics& intrinsics,
                                          const DepthImage& depth,
                                          const DepthPlaneOptions& options);

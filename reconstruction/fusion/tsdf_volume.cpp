@@ -65,7 +65,8 @@ class BandBlocks {
   Eigen::Vector3i previous_ = Eigen::Vector3i::Constant(1 << 28);
 };
 
-/// Walks a strided set of rays through the band of +-delta.
+/// Walks through the band of +-delta along the normals of a strided set of pixels; the cubes around
+/// the samples leave no gap between them.
 void touchBand(BandBlocks& band,
                const DepthPlanes& planes,
                const RigidTransform& scan_from_camera,
@@ -73,10 +74,11 @@ void touchBand(BandBlocks& band,
   const Intrinsics& k = planes.intrinsics;
   const auto delta = static_cast<float>(options.weighting.delta_mm);
   const auto block_mm = static_cast<float>(options.voxel_size_mm) * kBlockSide;
-  // Rays a quarter block apart at the usual distance; the cube around each sample fills the rest.
   const auto focal = static_cast<float>(std::min(k.fx_px, k.fy_px));
+  // Pixels a quarter block apart at the usual distance of 400 mm.
   const int stride = std::clamp(static_cast<int>(block_mm * focal / (4.0F * 400.0F)), 1, 8);
-  const int steps = std::max(2, static_cast<int>(std::ceil(4.0F * delta / block_mm)));
+  const int half_steps = static_cast<int>(std::ceil(2.0F * delta / block_mm));
+  const float spacing = delta / static_cast<float>(half_steps);
   const Eigen::Matrix3f rotation = scan_from_camera.linear().cast<float>();
   const Eigen::Vector3f origin = scan_from_camera.translation().cast<float>();
   for (int v = 0; v < k.height; v += stride) {
@@ -86,15 +88,12 @@ void touchBand(BandBlocks& band,
         continue;
       }
       const float z = planes.depth_mm[i];
-      const Eigen::Vector3f ray = rotation * k.ray(u, v).cast<float>();
-      const float length = ray.norm();
-      // Along an oblique ray the band is longer than across it.
-      const float reach = delta * std::min(2.0F, 1.0F / planes.quality[i]) / length;
-      const float half_width = 0.5F * static_cast<float>(stride) * z / focal;
-      for (int s = 0; s <= steps; ++s) {
-        const float at =
-            z + reach * (2.0F * static_cast<float>(s) / static_cast<float>(steps) - 1.0F);
-        band.touch(origin + at * ray, half_width);
+      const Eigen::Vector3f p = origin + rotation * (k.ray(u, v).cast<float>() * z);
+      const Eigen::Vector3f step = rotation * planes.normal(i) * spacing;
+      const float lateral = static_cast<float>(stride) * z / (focal * planes.quality[i]);
+      const float half_width = 0.5F * std::clamp(lateral, spacing, 2.0F * spacing);
+      for (int s = -half_steps; s <= half_steps; ++s) {
+        band.touch(p + step * static_cast<float>(s), half_width);
       }
     }
   }
