@@ -235,6 +235,26 @@ TexturedMesh assemble(ExtractedSurface surface, const SeenColors& colors) {
   return withHash(std::move(result));
 }
 
+/// Fit of one factor from the model's luminance to an image's: exposure is no error of alignment.
+struct GainFit {
+  double model_squares = 0.0;
+  double image_squares = 0.0;
+  double products = 0.0;
+  double count = 0.0;
+
+  void add(double model, double image) { add({model * model, image * image, model * image, 1.0}); }
+  void add(const GainFit& other) {
+    model_squares += other.model_squares;
+    image_squares += other.image_squares;
+    products += other.products;
+    count += other.count;
+  }
+  [[nodiscard]] double squaredError() const {
+    return model_squares > 0.0 ? std::max(0.0, image_squares - products * products / model_squares)
+                               : image_squares;
+  }
+};
+
 Expected<void> checkInput(const ExtractedSurface& surface, std::span<const Keyframe> keyframes) {
   if (surface.mesh.vertices.empty() || surface.mesh.faces.empty()) {
     return fail(ErrorCode::SurfaceEmpty, "no surface to colour");
@@ -302,30 +322,31 @@ double photometricRmse(const TexturedMesh& model,
   }
   const std::vector<Eigen::Vector3f> normals =
       model.mesh.normals.empty() ? vertexNormals(model.mesh) : model.mesh.normals;
-  struct Sum {
-    double squares = 0.0;
-    double count = 0.0;
-  };
-  std::vector<Sum> sums((model.colors.size() + kChunk - 1) / kChunk);
+  const std::size_t chunks = (model.colors.size() + kChunk - 1) / kChunk;
+  std::vector<GainFit> fits(chunks * views->size());
   parallelChunks(model.colors.size(), [&](std::size_t first, std::size_t last) {
-    Sum& sum = sums[first / kChunk];
+    const auto own_fits = std::span(fits).subspan(first / kChunk * views->size(), views->size());
     for (std::size_t i = first; i < last; ++i) {
-      const float own = intensityOf(toVector(model.colors[i]));
-      for (const KeyframeView& view : *views) {
+      const auto own = static_cast<double>(intensityOf(toVector(model.colors[i])));
+      for (std::size_t k = 0; k < views->size(); ++k) {
+        const KeyframeView& view = (*views)[k];
         if (const auto seen = view.observe(model.mesh.vertices[i], normals[i])) {
-          const double error = static_cast<double>(intensityOf(view.color(*seen)) - own);
-          sum.squares += error * error;
-          sum.count += 1.0;
+          own_fits[k].add(own, static_cast<double>(intensityOf(view.color(*seen))));
         }
       }
     }
   });
-  Sum total;
-  for (const Sum& sum : sums) {
-    total.squares += sum.squares;
-    total.count += sum.count;
+  GainFit total;
+  double squared_error = 0.0;
+  for (std::size_t k = 0; k < views->size(); ++k) {
+    GainFit image;
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      image.add(fits[chunk * views->size() + k]);
+    }
+    squared_error += image.squaredError();
+    total.add(image);
   }
-  return total.count > 0.0 ? std::sqrt(total.squares / total.count) : 0.0;
+  return total.count > 0.0 ? std::sqrt(squared_error / total.count) : 0.0;
 }
 
 }  // namespace tarsus

@@ -20,7 +20,7 @@ struct ColorMapOptions {
       8.0;                      ///< measured so much nearer than the vertex: something hides it
   double edge_margin_px = 2.0;  ///< no colour from so near to a jump of the model's depth
   double edge_fade_px = 8.0;    ///< full weight so far from edges of model and image
-  bool level_exposure = true;   ///< one gain per image and channel, their mean kept
+  bool level_exposure = true;   ///< one gain per image and channel, their median kept
 };
 
 /// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
@@ -35,8 +35,9 @@ struct ColorMapOptions {
                                                   const ColorMapOptions& options,
                                                   const Job& job);
 
-/// Photometric RMSE [grey levels] over seen vertices and keyframes: vertex colour against the
-/// keyframes that see it.
+/// Photometric RMSE [grey levels] over seen vertices and keyframes: luminance of each vertex
+/// against the keyframes that see it, after one gain for each keyframe, since exposure is no
+/// misalignment.
 [[nodiscard]] double photometricRmse(const TexturedMesh& model,
                                      const RgbdCamera& camera,
                                      std::span<const Keyframe> keyframes,

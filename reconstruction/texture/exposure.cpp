@@ -46,7 +46,7 @@ std::vector<Ratios> pairRatios(std::span<const ExposureSample> samples,
   return ratios;
 }
 
-double median(Ratios& values) {
+double median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return static_cast<double>(*middle);
@@ -75,7 +75,12 @@ Eigen::VectorXd solveChannel(std::vector<Ratios> ratios, std::size_t image_count
     }
   }
   Eigen::VectorXd gains = normal.ldlt().solve(right);
-  gains.array() -= gains.mean();
+  // The median image keeps its colours: a few views into the light must not shift all others.
+  std::vector<float> sorted(gains.size());
+  std::transform(gains.begin(), gains.end(), sorted.begin(), [](double gain) {
+    return static_cast<float>(gain);
+  });
+  gains.array() -= median(sorted);
   return gains.cwiseMax(-kMaxLogGain).cwiseMin(kMaxLogGain);
 }
 

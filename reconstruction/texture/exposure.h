@@ -16,8 +16,8 @@ struct ExposureSample {
 };
 
 /// Gain of each image and channel such that image / gain agree on the points they share: medians of
-/// the log ratios of each pair of images, joined by least squares. The mean of the log gains is 0,
-/// so that levelling does not shift the colours as a whole.
+/// the log ratios of each pair of images, joined by least squares. The median of the gains is 1, so
+/// that levelling does not shift the colours as a whole.
 /// @param samples  sorted by point
 /// @return image_count factors per channel, in [0.5, 2]
 [[nodiscard]] std::vector<Eigen::Vector3f> solveGains(std::span<const ExposureSample> samples,
