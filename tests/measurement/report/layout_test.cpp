@@ -124,22 +124,23 @@ const ReportFrame& frameNamed(const std::vector<ReportFrame>& frames, const std:
 
 int toDots(double mm) { return static_cast<int>(std::lround(mm / kMmPerDot)); }
 
+/// Page 1 as it prints, rendered once.
 class PrintedScale : public testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(writeReport(folder_.path() / "report.pdf", content_));
-    page_ = renderedPage(folder_.path() / "report.pdf", 1, kDpi);
-    const auto frames = layoutReport(content_);
+  static void SetUpTestSuite() {
+    const TemporaryFolder folder;
+    const ReportContent content = sample::makeContent();
+    ASSERT_TRUE(writeReport(folder.path() / "report.pdf", content));
+    page_ = renderedPage(folder.path() / "report.pdf", 1, kDpi);
+    const auto frames = layoutReport(content);
     ASSERT_TRUE(frames);
     texture_ = frameNamed(*frames, "texture");
-    scale_ = texture_.width_mm / (content_.texture.width() * content_.close_mm_per_px);
+    scale_ = texture_.width_mm / (content.texture.width() * content.close_mm_per_px);
   }
 
-  TemporaryFolder folder_;
-  ReportContent content_ = sample::makeContent();
-  ColorImage page_;
-  ReportFrame texture_;
-  double scale_ = 0.0;
+  inline static ColorImage page_;
+  inline static ReportFrame texture_;
+  inline static double scale_ = 0.0;
 };
 
 /// The bar's upper edge is one dark line of its whole length, on a white plate.
@@ -186,7 +187,7 @@ TEST_F(PrintedScale, OutlineHasItsTrueExtent) {
       }
     }
   }
-  const sample::Case one = sample::makeCase();
+  const sample::Case& one = sample::makeCase();
   const Eigen::Vector3d across = acrossThePicture(one);
   double least = 1e9;
   double most = -1e9;

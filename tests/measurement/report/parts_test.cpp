@@ -150,8 +150,9 @@ TEST(Illustrate, DepthThatIsNotMeasurableIsNotDrawn) {
 }
 
 TEST(Illustrate, SameInputGivesSamePixels) {
-  const ReportContent a = sample::makeContent();
-  const ReportContent b = sample::makeContent();
+  const sample::Case& one = sample::makeCase();
+  const ReportContent a = illustrate(one.foot, one.wound, one.landmarks);
+  const ReportContent b = illustrate(one.foot, one.wound, one.landmarks);
   const auto same = [](const Rgb8& p, const Rgb8& q) {
     return p.r == q.r && p.g == q.g && p.b == q.b;
   };

@@ -124,7 +124,7 @@ TEST(WriteReport, ShowsTheReasonInsteadOfAValueThatIsNotMeasurable) {
 }
 
 TEST(WriteReport, DrawsNoClockWithoutLandmarks) {
-  const sample::Case one = sample::makeCase();
+  const sample::Case& one = sample::makeCase();
   ReportContent report = illustrate(one.foot, one.wound, std::nullopt);
   report.title_line = "Foot without landmarks";
   const std::vector<std::string> pages = printedText(report);

@@ -161,7 +161,9 @@ double outlineRadius(double angle) {
   return 10.6 + 1.2 * std::cos(2.0 * angle + 1.1) + 0.7 * std::sin(3.0 * angle);
 }
 
-Case makeCase() {
+namespace {
+
+Case buildCase() {
   Case result;
   result.foot = makeFoot();
   result.wound.numbers = makeNumbers();
@@ -181,9 +183,17 @@ Case makeCase() {
   return result;
 }
 
+}  // namespace
+
+const Case& makeCase() {
+  static const Case made = buildCase();
+  return made;
+}
+
 ReportContent makeContent() {
-  const Case sample = makeCase();
-  ReportContent content = illustrate(sample.foot, sample.wound, sample.landmarks);
+  const Case& sample = makeCase();
+  static const ReportContent pictures = illustrate(sample.foot, sample.wound, sample.landmarks);
+  ReportContent content = pictures;
   content.title_line = "Simulated foot · forefoot wound 1 · scan of 5 Oct 2026";
   content.quality = {{"Frames tracked", "600 of 600"},
                      {"Tracking residual", "0.34 mm RMS"},

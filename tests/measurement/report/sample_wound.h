@@ -17,9 +17,10 @@ inline constexpr double kBowlDepth_mm = 3.4;
 /// Radius of the wound's outline over the flattened sole [mm].
 [[nodiscard]] double outlineRadius(double angle);
 
-[[nodiscard]] Case makeCase();
+/// Made once; copy it to change it.
+[[nodiscard]] const Case& makeCase();
 
-/// The case as a report: pictures taken, title, quality, version and time filled in.
+/// The case as a report: pictures taken (once), title, quality, version and time filled in.
 [[nodiscard]] ReportContent makeContent();
 
 }  // namespace tarsus::sample
