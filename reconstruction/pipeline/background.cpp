@@ -13,6 +13,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
 namespace tarsus {
 namespace {
@@ -26,23 +28,21 @@ struct ThinnedSurface {
 };
 
 ThinnedSurface thin(const TriangleMesh& mesh, double cell_mm) {
-  struct Keyed {
-    std::array<int, 3> cell;
-    int vertex;
-    auto operator<=>(const Keyed&) const = default;
-  };
-  std::vector<Keyed> keyed(mesh.vertices.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
+  using CellAndVertex = std::tuple<int, int, int, int>;
+  std::vector<CellAndVertex> sorted(mesh.vertices.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Eigen::Vector3i cell =
         (mesh.vertices[i] / static_cast<float>(cell_mm)).array().floor().cast<int>();
-    keyed[i] = {{cell.x(), cell.y(), cell.z()}, static_cast<int>(i)};
+    sorted[i] = {cell.x(), cell.y(), cell.z(), static_cast<int>(i)};
   }
-  std::ranges::sort(keyed);
+  std::ranges::sort(sorted);
   ThinnedSurface result;
-  result.point_of_vertex.resize(keyed.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    const auto vertex = static_cast<std::size_t>(keyed[i].vertex);
-    if (i == 0 || keyed[i].cell != keyed[i - 1].cell) {
+  result.point_of_vertex.resize(sorted.size());
+  std::optional<std::tuple<int, int, int>> last_cell;
+  for (const auto& [x, y, z, vertex_index] : sorted) {
+    const auto vertex = static_cast<std::size_t>(vertex_index);
+    if (last_cell != std::tuple(x, y, z)) {
+      last_cell = {x, y, z};
       pcl::PointNormal point;
       point.getVector3fMap() = mesh.vertices[vertex];
       point.getNormalVector3fMap() = mesh.normals[vertex];

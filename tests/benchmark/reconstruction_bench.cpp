@@ -1,6 +1,6 @@
-// Tables of figures on whole scans: `tarsus-bench tabletop DIR [PICTURES]`, `... bust DIR`, ...
-// Definitions: design.md section 5 of the project's papers; README.md beside this file's results.
+// Tables of figures on whole scans; the last line of this file says how to call it.
 
+#include "bench_support.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
@@ -11,54 +11,18 @@
 #include "reconstruction/scene/mesh_picture.h"
 #include "reconstruction/scene/ply.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 namespace {
 
 using namespace tarsus;  // NOLINT: a program of its own
-
-/// Wall and processor time since it was made.
-class StopWatch {
- public:
-  [[nodiscard]] double wall_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
-  }
-  [[nodiscard]] double cpu_s() const {
-    return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
-  }
-
- private:
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
-};
-
-double peakMemory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-template <typename T>
-T orExit(Expected<T> value) {
-  if (!value) {
-    std::fprintf(stderr, "tarsus-bench: %s\n", describe(value.error()).c_str());
-    std::exit(1);
-  }
-  if constexpr (!std::is_void_v<T>) {
-    return std::move(*value);
-  }
-}
 
 /// What a benchmark on one scan needs.
 struct Scan {
@@ -76,72 +40,10 @@ struct Scan {
 
 constexpr std::chrono::microseconds kSameTime{2000};
 
-/// Camera positions against the reference, first tracked pose anchored, no further alignment.
-void printTrajectoryError(const Trajectory& trajectory, const Trajectory& reference) {
-  std::optional<RigidTransform> scan_from_reference;
-  double squares = 0.0;
-  double farthest = 0.0;
-  int count = 0;
-  for (const FramePose& pose : trajectory) {
-    const auto truth = poseAt(reference, pose.timestamp, kSameTime);
-    if (!pose.scan_from_camera || !truth) {
-      continue;
-    }
-    if (!scan_from_reference) {
-      scan_from_reference = *pose.scan_from_camera * truth->inverse();
-    }
-    const double error = (*scan_from_reference * truth->translation() -
-                          Eigen::Vector3d(pose.scan_from_camera->translation()))
-                             .norm();
-    squares += error * error;
-    farthest = std::max(farthest, error);
-    ++count;
-  }
-  std::printf("trajectory RMSE [mm]        %8.2f   farthest %.2f, over %d poses\n",
-              std::sqrt(squares / std::max(1, count)),
-              farthest,
-              count);
-}
-
-struct PointErrors {
-  std::vector<double> distances_mm;
-
-  void print(double limit_mm) const {
-    double all = 0.0;
-    double near = 0.0;
-    std::size_t inside = 0;
-    for (const double d : distances_mm) {
-      all += d * d;
-      if (d <= limit_mm) {
-        near += d * d;
-        ++inside;
-      }
-    }
-    const auto n = static_cast<double>(std::max<std::size_t>(1, distances_mm.size()));
-    std::printf(
-        "frames to model RMS [mm]    %8.3f   points within %.0f mm of it; %.2f %% excluded\n",
-        std::sqrt(near / std::max(1.0, static_cast<double>(inside))),
-        limit_mm,
-        100.0 * (1.0 - static_cast<double>(inside) / n));
-    std::printf("  all points, capped 50 mm  %8.3f   %zu points\n",
-                std::sqrt(all / n),
-                distances_mm.size());
-    std::vector<double> sorted = distances_mm;
-    std::sort(sorted.begin(), sorted.end());
-    if (!sorted.empty()) {
-      std::printf("  median / 95 %%             %8.3f / %.3f\n",
-                  sorted[sorted.size() / 2],
-                  sorted[sorted.size() * 95 / 100]);
-    }
-  }
-};
-
 /// Distances of every fourth measured pixel (both ways) from the model.
-PointErrors framesToModel(const Scan& scan,
-                          const Trajectory& trajectory,
-                          const TriangleMesh& mesh) {
+Distances framesToModel(const Scan& scan, const Trajectory& trajectory, const TriangleMesh& mesh) {
   const MeshIndex index(mesh);
-  PointErrors errors;
+  Distances errors;
   const auto frames = scan.open(false);
   while (const auto frame = orExit(frames->next())) {
     const auto pose = poseAt(trajectory, frame->timestamp, kSameTime);
@@ -156,11 +58,17 @@ PointErrors framesToModel(const Scan& scan,
         }
         const Eigen::Vector3d p = *pose * Eigen::Vector3d(frames->camera().depth.ray(u, v) * z);
         const auto nearest = index.nearest(p, 50.0);
-        errors.distances_mm.push_back(nearest ? nearest->distance_mm : 50.0);
+        errors.values_mm.push_back(nearest ? nearest->distance_mm : 50.0);
       }
     }
   }
   return errors;
+}
+
+/// Points farther off belong to what the model rightly left out: flying pixels, single views.
+void printFramesToModel(const Distances& distances) {
+  distances.printWithin("frames to model RMS [mm]", 5.0);
+  distances.print("  all, capped at 50 mm");
 }
 
 void savePictures(const Scan& scan,
@@ -237,17 +145,10 @@ TrackingResult track(const Scan& scan) {
 
 void benchTabletop(const Scan& scan) {
   const TrackingResult tracked = track(scan);
-  for (const FramePose& pose : tracked.trajectory) {
-    if (!pose.scan_from_camera) {
-      std::printf("  lost: frame %d, residual %.2f mm, inliers %.2f\n",
-                  pose.frame_index,
-                  pose.rmse_mm,
-                  pose.inlier_fraction);
-    }
-  }
+  printLostFrames(tracked.trajectory);
   printTrajectoryError(tracked.trajectory, scan.reference());
   const ExtractedSurface surface = fuseAndExtract(scan, tracked.trajectory, 3.0F);
-  framesToModel(scan, tracked.trajectory, surface.mesh).print(5.0);
+  printFramesToModel(framesToModel(scan, tracked.trajectory, surface.mesh));
   const std::array views{Eigen::Vector3d(0, -0.4, -1), Eigen::Vector3d(0.8, -0.6, -1)};
   savePictures(scan, surface, "tabletop", views);
 }
@@ -255,7 +156,7 @@ void benchTabletop(const Scan& scan) {
 void benchBust(const Scan& scan) {
   const Trajectory poses = scan.reference();
   const ExtractedSurface surface = fuseAndExtract(scan, poses, 2.0F);
-  framesToModel(scan, poses, surface.mesh).print(5.0);
+  printFramesToModel(framesToModel(scan, poses, surface.mesh));
   const std::array views{Eigen::Vector3d(0, 0, -1),
                          Eigen::Vector3d(1, 0, 0),
                          Eigen::Vector3d(0, 0, 1),
@@ -263,13 +164,41 @@ void benchBust(const Scan& scan) {
   savePictures(scan, surface, "bust", views);
 }
 
+Scan scanOf(const BenchArguments& arguments) {
+  return {.folder = arguments.input,
+          .pictures = arguments.pictures,
+          .voxel_size_mm = arguments.voxel_size_mm};
+}
+
 struct Benchmark {
   std::string_view name;
-  void (*run)(const Scan&);
+  void (*run)(const BenchArguments&);
 };
 
-constexpr std::array kBenchmarks{Benchmark{"tabletop", benchTabletop},
-                                 Benchmark{"bust", benchBust}};
+constexpr std::array kBenchmarks{
+    Benchmark{"tabletop", [](const BenchArguments& a) { benchTabletop(scanOf(a)); }},
+    Benchmark{"bust", [](const BenchArguments& a) { benchBust(scanOf(a)); }},
+    Benchmark{"simulated", benchSimulated}};
+
+/// `--pictures DIR --voxel-mm X --frames N --seed N`, in any order.
+BenchArguments parse(std::span<char*> arguments) {
+  BenchArguments result;
+  result.input = arguments[0];
+  for (std::size_t i = 1; i + 1 < arguments.size(); i += 2) {
+    const std::string_view option = arguments[i];
+    const std::string value = arguments[i + 1];
+    if (option == "--pictures") {
+      result.pictures = value;
+    } else if (option == "--voxel-mm") {
+      result.voxel_size_mm = std::stod(value);
+    } else if (option == "--frames") {
+      result.frames = std::stoi(value);
+    } else if (option == "--seed") {
+      result.seed = std::stoull(value);
+    }
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -277,12 +206,10 @@ int main(int argc, char** argv) {
   const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
   for (const Benchmark& benchmark : kBenchmarks) {
     if (argc >= 3 && benchmark.name == arguments[1]) {
-      Scan scan{.folder = arguments[2], .pictures = {}};
-      scan.pictures = argc >= 4 ? arguments[3] : "";
-      scan.voxel_size_mm = argc >= 5 ? std::stod(arguments[4]) : 1.0;
+      const BenchArguments given = parse(arguments.subspan(2));
       const StopWatch watch;
-      std::printf("%s at %.2f mm\n", arguments[1], scan.voxel_size_mm);
-      benchmark.run(scan);
+      std::printf("%s at %.2f mm\n", arguments[1], given.voxel_size_mm);
+      benchmark.run(given);
       std::printf("in all                      %8.1f s  (processor %.1f s), peak memory %.0f MB\n",
                   watch.wall_s(),
                   watch.cpu_s(),
@@ -291,6 +218,7 @@ int main(int argc, char** argv) {
     }
   }
   std::fprintf(stderr,
-               "usage: tarsus-bench tabletop|bust SCAN_FOLDER [PICTURE_FOLDER [VOXEL_MM]]\n");
+               "usage: tarsus-bench tabletop|bust SCAN_FOLDER | simulated FOOT\n"
+               "       [--pictures DIR] [--voxel-mm 1] [--frames 600] [--seed 1]\n");
   return 2;
 }
