@@ -52,31 +52,36 @@ double identity(PageCanvas& canvas, const ReportContent& content, double top_mm)
   return bottom + 2.4;
 }
 
-/// Key value of one quantity in its cell, or why there is none.
-void keyCell(PageCanvas& canvas, const MeasurementRow& row, const QRectF& cell) {
+/// The style with the greatest size at which the text is no wider than the room.
+TextStyle fitted(const PageCanvas& canvas, const QString& text, TextStyle style, double room_mm) {
+  while (style.size_pt > 7.0 && canvas.widthOf(text, style) > room_mm) {
+    style.size_pt -= 0.5;
+  }
+  return style;
+}
+
+/// Key value of one quantity in its cell, or why there is none. @return the width of its text [mm]
+double keyCell(PageCanvas& canvas, const MeasurementRow& row, const QRectF& cell) {
   canvas.text(cell.topLeft(), row.name, type::kCell);
+  const TextStyle small{8, 10, false, ink::kBlack};
   if (!row.reason.isEmpty()) {
-    canvas.text(
-        cell.topLeft() + QPointF(0, 6.4), Words::tr("not measurable"), {13, 16, true, ink::kBlack});
-    canvas.paragraph(cell.topLeft() + QPointF(0, 12.6),
-                     cell.width(),
-                     {{row.reason, {8, 10, false, ink::kBlack}}});
-    return;
+    const QString words = Words::tr("not measurable");
+    const TextStyle style = fitted(canvas, words, {13, 16, true, ink::kBlack}, cell.width());
+    canvas.text(cell.topLeft() + QPointF(0, 6.4), words, style);
+    canvas.paragraph(cell.topLeft() + QPointF(0, 12.6), cell.width(), {{row.reason, small}});
+    return canvas.widthOf(words, style);
   }
-  TextStyle value = type::kKeyValue;
   const double unit_mm = canvas.widthOf(row.unit, type::kKeyUnit) + 1.4;
-  while (value.size_pt > 12.0 && canvas.widthOf(row.value, value) + unit_mm > cell.width()) {
-    value.size_pt -= 0.5;
-  }
+  const TextStyle value = fitted(canvas, row.value, type::kKeyValue, cell.width() - unit_mm);
+  const double value_mm = canvas.widthOf(row.value, value);
   const QPointF at = cell.topLeft() + QPointF(0, 3.6);
   canvas.text(at, row.value, value.in(row.below_limit ? ink::kFaint : ink::kBlack));
-  const double unit_drop = 1.9 * value.size_pt / type::kKeyValue.size_pt;
-  canvas.text(
-      at + QPointF(canvas.widthOf(row.value, value) + 1.4, unit_drop), row.unit, type::kKeyUnit);
+  const double unit_drop = 1.9 * value.size_pt / type::kKeyValue.size_pt;  // on the same baseline
+  canvas.text(at + QPointF(value_mm + 1.4, unit_drop), row.unit, type::kKeyUnit);
   const QString interval = row.interval.isEmpty() ? Words::tr("no interval")
                                                   : Words::tr("95 % interval %1").arg(row.interval);
-  canvas.paragraph(
-      cell.topLeft() + QPointF(0, 14.6), cell.width(), {{interval, {8, 10, false, ink::kBlack}}});
+  canvas.paragraph(cell.topLeft() + QPointF(0, 14.6), cell.width(), {{interval, small}});
+  return value_mm + unit_mm;
 }
 
 double keyValues(PageCanvas& canvas, const std::vector<MeasurementRow>& rows, double top_mm) {
@@ -103,8 +108,9 @@ double keyValues(PageCanvas& canvas, const std::vector<MeasurementRow>& rows, do
   for (const Cell& cell : kCells) {
     const double inset = x > page::kLeft ? 3.0 : 0.0;
     const QRectF box(x + inset, top_mm + 1.4, cell.width_mm - inset - 1.0, tallest);
-    keyCell(canvas, rowNamed(rows, cell.key), box);
-    canvas.frame(std::string("key ") + cell.key, box);
+    const double used = keyCell(canvas, rowNamed(rows, cell.key), box);
+    canvas.frame(std::string("key ") + cell.key,
+                 {box.left(), box.top(), std::max(box.width(), used), box.height()});
     x += cell.width_mm;
     if (x < page::kRight - 1.0) {
       canvas.line({x, top_mm}, {x, top_mm + tallest + 2.4}, 0.12, ink::kRule);
@@ -143,7 +149,11 @@ QString sentence(const ReportContent& content, const std::vector<MeasurementRow>
 double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_mm) {
   QStringList reasons;
   for (const std::string& reason : content.refusal_reasons) {
-    reasons << QString::fromStdString(reason);
+    QString text = QString::fromStdString(reason);
+    while (text.endsWith(QLatin1Char('.'))) {
+      text.chop(1);  // they are joined into one sentence
+    }
+    reasons << text;
   }
   const QString why =
       reasons.isEmpty() ? Words::tr("no reason was recorded") : reasons.join(QStringLiteral("; "));

@@ -284,7 +284,10 @@ double closeViews(PageCanvas& canvas, const ReportContent& content, const QPoint
               content.has_color ? Words::tr("Texture with wound outline")
                                 : Words::tr("Shaded skin with wound outline, no colour"),
               type::kCaption);
-  canvas.text({right.left(), y}, Words::tr("Depth below reference skin"), type::kCaption);
+  canvas.text({right.left(), y},
+              content.depth_scale_end_mm > 0.0 ? Words::tr("Depth below reference skin")
+                                               : Words::tr("Shaded skin; depth not measurable"),
+              type::kCaption);
   textureView(canvas, content, left);
   depthView(canvas, content, right);
   canvas.frame("texture", left);

@@ -137,7 +137,7 @@ TEST(WriteReport, DrawsNoClockWithoutLandmarks) {
 TEST(WriteReport, SaysThatAnUnfitModelIsUnfit) {
   ReportContent report = content();
   report.fit_for_measurement = false;
-  report.refusal_reasons = {"tracking was lost for 3.1 s", "31 % of the wound bed was not seen"};
+  report.refusal_reasons = {"tracking was lost for 3.1 s.", "31 % of the wound bed was not seen"};
   const std::vector<std::string> pages = printedText(report);
   ASSERT_EQ(pages.size(), 2U);
   for (const std::string& page : pages) {
@@ -146,6 +146,7 @@ TEST(WriteReport, SaysThatAnUnfitModelIsUnfit) {
                 "tracking was lost for 3.1 s",
                 "31 % of the wound bed was not seen"});
   }
+  EXPECT_EQ(pages[0].find("3.1 s.;"), std::string::npos);
   expectText(pages[0], {"Do not use the numbers; scan again."});
   expectText(pages[1], {"fit for measurement no"});
 }
