@@ -36,15 +36,15 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-/// Universal time, to the minute; SOURCE_DATE_EPOCH (reproducible-builds.org) fixes it for tests.
+/// Universal time as ISO 8601; SOURCE_DATE_EPOCH (reproducible-builds.org) fixes it for tests.
 std::string now() {
   const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
   const std::time_t time = fixed != nullptr ? std::strtoll(fixed, nullptr, 10) : std::time(nullptr);
   std::tm parts{};
   gmtime_r(&time, &parts);
   char buffer[64];
-  std::strftime(buffer, sizeof buffer, "%e %b %Y %H:%M UTC", &parts);
-  return buffer[0] == ' ' ? buffer + 1 : buffer;
+  std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return buffer;
 }
 
 void addQuality(const json& scan, ReportContent& content) {

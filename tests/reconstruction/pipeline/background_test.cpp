@@ -71,7 +71,7 @@ Trajectory camerasAt(const Eigen::Vector3d& target) {
 /// A wall 300 mm behind the origin and a bench below, both seen by cameras that look along +z.
 void addRoom(ExtractedSurface& surface) {
   addRectangle(surface, {-400, -300, 300}, {0, 600, 0}, {800, 0, 0});  // wall, faces -z
-  addRectangle(surface, {-300, 60, 40}, {0, 0, 260}, {600, 0, 0});     // bench top, faces up (-y)
+  addRectangle(surface, {-300, 60, 40}, {600, 0, 0}, {0, 0, 260});     // bench top, faces up (-y)
 }
 
 double farthestFrom(const TriangleMesh& mesh, const Vector3f& center) {
