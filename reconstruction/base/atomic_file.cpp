@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -19,7 +18,7 @@ namespace fs = std::filesystem;
 tl::unexpected<Error> systemFailure(int error_number, const fs::path& path) {
   const bool full = error_number == ENOSPC || error_number == EDQUOT;
   return fail(full ? ErrorCode::DiskFull : ErrorCode::FileUnwritable,
-              path.string() + ": " + std::strerror(error_number));
+              path.string() + ": " + std::generic_category().message(error_number));
 }
 
 Expected<void> writeAll(int file, std::span<const std::byte> bytes, const fs::path& path) {

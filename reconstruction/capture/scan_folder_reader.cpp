@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNearestPlausible_mm = 150.0;
-constexpr double kFarthestPlausible_mm = 2000.0;
+constexpr double kNearestPlausibleMm = 150.0;
+constexpr double kFarthestPlausibleMm = 2000.0;
 constexpr int kFramesLookedAt = 10;    ///< for the depth unit's plausibility
 constexpr double kEnoughDepth = 0.01;  ///< share of pixels that such a frame must have
 
@@ -193,7 +193,7 @@ Expected<void> checkUnit(const std::vector<FrameFiles>& files, const RgbdCamera&
     if (!median_mm) {
       continue;
     }
-    if (*median_mm < kNearestPlausible_mm || *median_mm > kFarthestPlausible_mm) {
+    if (*median_mm < kNearestPlausibleMm || *median_mm > kFarthestPlausibleMm) {
       return fail(ErrorCode::DepthUnitImplausible,
                   "the median depth would be " + std::to_string(*median_mm / 1000.0) + " m with " +
                       std::to_string(camera.depth_units_per_m) + " units per metre");

@@ -76,9 +76,9 @@ Expected<void> ScanFolderWriter::finish(const Trajectory& groundtruth) {
     const std::string time = timeText(timestamp);
     const std::string rgb_entry = time + " rgb/" + time + ".jpg";
     const std::string depth_entry = time + " depth/" + time + ".png";
-    rgb += rgb_entry + "\n";
-    depth += depth_entry + "\n";
-    pairs += rgb_entry + " " + depth_entry + "\n";
+    rgb.append(rgb_entry).append("\n");
+    depth.append(depth_entry).append("\n");
+    pairs.append(rgb_entry).append(" ").append(depth_entry).append("\n");
   }
   const fs::path& folder = state_->folder;
   auto written = writeTextAtomically(folder / "rgb.txt", rgb);

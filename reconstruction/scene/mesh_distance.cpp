@@ -16,7 +16,7 @@
 namespace tarsus {
 namespace {
 
-constexpr double kCompleteWithin_mm = 1.0;
+constexpr double kCompleteWithinMm = 1.0;
 constexpr std::size_t kMostFitPoints = 8000;  ///< more make the fit slower, not better
 
 /// Counter-based noise: the same number for the same place, whatever ran before it.
@@ -232,7 +232,7 @@ Expected<MeshComparison> compareMeshes(const TriangleMesh& a,
   result.symmetric_rms_mm = std::sqrt(0.5 * (result.a_to_b.rms_mm * result.a_to_b.rms_mm +
                                              result.b_to_a.rms_mm * result.b_to_a.rms_mm));
   result.hausdorff_mm = std::max(result.a_to_b.max_mm, result.b_to_a.max_mm);
-  result.completeness_1mm = shareWithin(b_distances, kCompleteWithin_mm);
+  result.completeness_1mm = shareWithin(b_distances, kCompleteWithinMm);
   result.a_vertex_distance_mm = vertexDistances(placed, b_index, options.region);
   return result;
 }

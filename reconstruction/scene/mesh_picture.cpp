@@ -87,11 +87,11 @@ double reachToViewer(const TriangleMesh& mesh,
 }
 
 /// Mean colour of samples x samples rays in each pixel of row v.
+/// @param eye  the view, with its centre moved to where the rays start
 void takeRow(const Studio& studio,
-             const ViewFrame& view,
+             const ViewFrame& eye,
              const PictureOptions& options,
              int v,
-             const Eigen::Vector3d& eye_plane,
              ColorImage& picture) {
   const int samples = options.samples_per_axis;
   const auto across = static_cast<std::size_t>(options.width_px) * samples;
@@ -106,7 +106,7 @@ void takeRow(const Studio& studio,
       const int u = static_cast<int>(i) / samples;
       const double x_px = u + offset(static_cast<int>(i) % samples) - 0.5 * (options.width_px - 1);
       origins[i] =
-          (eye_plane + view.mm_per_px * (x_px * view.right + y_px * view.up)).cast<float>();
+          (eye.center_mm + eye.mm_per_px * (x_px * eye.right + y_px * eye.up)).cast<float>();
     }
     studio.index.castParallelRays(origins, (-studio.toward_viewer).cast<float>(), hits);
     for (std::size_t i = 0; i < across; ++i) {
@@ -178,12 +178,11 @@ ColorImage takePicture(const TriangleMesh& mesh,
                       .key_light = (-0.55 * view.right + 0.6 * view.up + 0.6 * toward).normalized(),
                       .shading = colored ? std::clamp(options.shading, 0.0, 1.0) : 1.0,
                       .background = options.background};
-  constexpr double kClear_mm = 1.0;
-  const Eigen::Vector3d eye_plane =
-      view.center_mm + (reachToViewer(mesh, view.center_mm, toward) + kClear_mm) * toward;
+  constexpr double kClearMm = 1.0;
+  ViewFrame eye = view;
+  eye.center_mm += (reachToViewer(mesh, view.center_mm, toward) + kClearMm) * toward;
   ColorImage picture(options.width_px, options.height_px);
-  parallelFor(options.height_px,
-              [&](int v) { takeRow(studio, view, options, v, eye_plane, picture); });
+  parallelFor(options.height_px, [&](int v) { takeRow(studio, eye, options, v, picture); });
   return picture;
 }
 

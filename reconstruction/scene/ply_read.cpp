@@ -72,8 +72,9 @@ class PlyValues {
   std::optional<std::size_t> nextLength(const PlyProperty& list) {
     const std::optional<double> length = next(*list.list_length);
     const std::size_t entry = format_ == PlyFormat::Ascii ? 1 : sizeOf(list.type);
+    const std::size_t entries_left = bytesLeft() / entry;
     const bool fits = length && *length >= 0.0 && std::floor(*length) == *length &&
-                      *length <= static_cast<double>(bytesLeft() / entry);
+                      *length <= static_cast<double>(entries_left);
     return fits ? std::optional<std::size_t>(static_cast<std::size_t>(*length)) : std::nullopt;
   }
 

@@ -14,8 +14,8 @@ namespace tarsus {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr double kKept = 0.8;       ///< share of pairs kept: the nearest; our choice
-constexpr double kStill_mm = 1e-5;  ///< a step that moves no point further than this ends it
+constexpr double kKept = 0.8;      ///< share of pairs kept: the nearest; our choice
+constexpr double kStillMm = 1e-5;  ///< a step that moves no point further than this ends it
 constexpr std::size_t kFewestPairs = 6;
 
 struct Pair {
@@ -116,7 +116,7 @@ RigidTransform fitRigidly(std::span<const Eigen::Vector3d> points_a,
       break;
     }
     b_from_a = *move * b_from_a;
-    if (largestMove(*move, pairs) < kStill_mm) {
+    if (largestMove(*move, pairs) < kStillMm) {
       break;
     }
   }
