@@ -42,6 +42,8 @@ FootShape::RoundCone FootShape::cone(
   c.inverse_length2 = 1.0 / c.length2;
   c.slope2 = c.length2 - (radius_a - radius_b) * (radius_a - radius_b);
   c.blend_mm = blend_mm;
+  c.middle = 0.5 * (a + b);
+  c.reach = 0.5 * std::sqrt(c.length2) + std::max(radius_a, radius_b);
   return c;
 }
 
@@ -135,7 +137,11 @@ void FootShape::addToes() {
 double FootShape::chainDistance(const std::vector<RoundCone>& chain, const Vector3d& p) {
   double d = chain.front().distance(p);
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    d = smoothMin(d, chain[i].distance(p), chain[i].blend_mm);
+    const RoundCone& c = chain[i];
+    const double out_of_reach = d + c.blend_mm + c.reach;  // it could not change the minimum
+    if (out_of_reach < 0.0 || (p - c.middle).squaredNorm() < out_of_reach * out_of_reach) {
+      d = smoothMin(d, c.distance(p), c.blend_mm);
+    }
   }
   return d;
 }

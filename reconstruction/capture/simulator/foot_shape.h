@@ -11,7 +11,7 @@ namespace tarsus {
 /// round cones. All shapes are our own; sizes follow an adult foot of 260 mm.
 ///
 /// Foot frame: x from heel (0) to toes (260), y to the medial side (big toe), z up the leg; the
-/// sole touches z = 0. The outside is positive.
+/// sole lies about z = 0. The outside is positive.
 class FootShape {
  public:
   FootShape();
@@ -32,6 +32,8 @@ class FootShape {
     Eigen::Vector3d axis;
     double radius_a, radius_b, length2, slope2, inverse_length2;
     double blend_mm;  ///< how softly it joins what came before it
+    Eigen::Vector3d middle;
+    double reach;  ///< no part of it is farther from its middle
     [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
   };
   struct Toe {

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 namespace tarsus {
@@ -89,40 +91,68 @@ void rotate(DenseMesh& mesh, const Matrix3d& r) {
   }
 }
 
-/// Rows x (heel to toes), y, z (up the leg) of a standing foot, found from the shape alone.
-Matrix3d standingAxes(const DenseMesh& mesh) {
-  const Vector3d mean =
-      std::accumulate(mesh.positions.begin(), mesh.positions.end(), Vector3d(0, 0, 0)) /
-      static_cast<double>(mesh.positions.size());
+struct Spread {
+  Vector3d mean;
+  Vector3d thin;     ///< unit, along the least extent
+  Vector3d longest;  ///< unit
+  double thickness2;
+};
+
+Spread spreadOf(const std::vector<Vector3d>& points) {
+  const Vector3d mean = std::accumulate(points.begin(), points.end(), Vector3d(0, 0, 0)) /
+                        static_cast<double>(points.size());
   Matrix3d scatter = Matrix3d::Zero();
-  for (const Vector3d& p : mesh.positions) {
+  for (const Vector3d& p : points) {
     scatter += (p - mean) * (p - mean).transpose();
   }
-  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(scatter).eigenvectors();
-  const Vector3d length = axes.col(2);
-  Vector3d up = axes.col(0);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(scatter / static_cast<double>(points.size()));
+  return {mean, axes.eigenvectors().col(0), axes.eigenvectors().col(2), axes.eigenvalues()[0]};
+}
+
+/// The outermost 30 % of the foot in a direction.
+std::vector<Vector3d> endOf(const DenseMesh& mesh, const Vector3d& outward) {
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (const Vector3d& p : mesh.positions) {
+    low = std::min(low, p.dot(outward));
+    high = std::max(high, p.dot(outward));
+  }
+  std::vector<Vector3d> end;
+  std::ranges::copy_if(mesh.positions, std::back_inserter(end), [&](const Vector3d& p) {
+    return p.dot(outward) > high - 0.3 * (high - low);
+  });
+  return end;
+}
+
+/// Rows x (heel to toes), y, z (up the leg) of a standing foot, found from the shape alone: the
+/// thinner end holds the toes, it is thin from sole to back, and the leg is on the side of the
+/// back.
+Matrix3d standingAxes(const DenseMesh& mesh) {
+  const Spread whole = spreadOf(mesh.positions);
+  Vector3d forward = whole.longest;
+  Spread toes = spreadOf(endOf(mesh, forward));
+  const Spread other = spreadOf(endOf(mesh, -forward));
+  if (other.thickness2 < toes.thickness2) {
+    toes = other;
+    forward = -forward;
+  }
+  const Vector3d back = toes.thin.dot(whole.mean - toes.mean) > 0.0 ? toes.thin : -toes.thin;
+  forward = (forward - forward.dot(back) * back).normalized();
+  // The back of the foot slopes to the side; the sole says what level is.
+  Vector3d up = back;
   double sole = 0.0;
-  for (int k = 0; k < 36; ++k) {  // the sole is not quite along a principal axis: turn about length
-    const Vector3d down = Eigen::AngleAxisd(k * 3.14159265358979 / 18.0, length) * axes.col(0);
-    const double area = flatArea(mesh, down);
+  for (int degrees = -20; degrees <= 20; degrees += 2) {
+    const Vector3d tried = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, forward) * back;
+    const double area = flatArea(mesh, -tried);
     if (area > sole) {
       sole = area;
-      up = -down;
+      up = tried;
     }
   }
-  // The end of the leg lies over the heel.
-  double top = std::numeric_limits<double>::lowest();
-  for (const Vector3d& p : mesh.positions) {
-    top = std::max(top, (p - mean).dot(up));
-  }
-  double leg = 0.0;
-  for (const Vector3d& p : mesh.positions) {
-    leg += (p - mean).dot(up) > 0.8 * top ? (p - mean).dot(length) : 0.0;
-  }
   Matrix3d rows;
-  rows.row(0) = leg > 0.0 ? -length : length;
+  rows.row(0) = forward;
   rows.row(2) = up;
-  rows.row(1) = up.cross(Vector3d(rows.row(0)));
+  rows.row(1) = up.cross(forward);
   return rows;
 }
 
@@ -214,9 +244,11 @@ Expected<IntactFoot> loadFoot(const std::filesystem::path& path) {
     }
   }
   rotate(foot.mesh, standingAxes(foot.mesh));
-  e = extentOf(foot.mesh.positions);
-  rotate(foot.mesh,
-         Eigen::AngleAxisd(levelPitch(foot.mesh, e), Vector3d::UnitY()).toRotationMatrix());
+  for (int round = 0; round < 3; ++round) {
+    e = extentOf(foot.mesh.positions);
+    rotate(foot.mesh,
+           Eigen::AngleAxisd(levelPitch(foot.mesh, e), Vector3d::UnitY()).toRotationMatrix());
+  }
   e = extentOf(foot.mesh.positions);
   foot.length_mm = e.high.x() - e.low.x();
   if (foot.length_mm < 80.0 || foot.length_mm > 400.0) {

@@ -116,6 +116,9 @@ class DepthSensor {
   [[nodiscard]] float sense(int u, int v) const {
     const float z = view_.depth_mm.at(u, v);
     const float cosine = view_.incidence_cos.at(u, v);
+    if (cosine < min_cos_) {
+      return 0.0F;
+    }
     const auto share = static_cast<float>(std::min(model_.noise, 1.0));
     const auto pixel = static_cast<std::uint64_t>(v) * 65536U + static_cast<std::uint64_t>(u);
     const float weak = share * weakReturn(view_.brightness.at(u, v));
@@ -124,7 +127,8 @@ class DepthSensor {
     }
     const NearFar range =
         neighbourhood(view_.depth_mm, u, v, static_cast<float>(model_.max_range_mm));
-    if (double{range.far_mm} - double{range.near_mm} > model_.edge_step_mm) {
+    if (double{range.far_mm} - double{range.near_mm} >
+        model_.edge_step_mm + model_.edge_step_share * double{z}) {
       const std::uint64_t bits = mixBits(edge_stream_ ^ mixBits(pixel));
       const double dice = uniformFrom(bits);
       if (dice < model_.edge_hole_share * double{share}) {
@@ -135,9 +139,6 @@ class DepthSensor {
         const auto t = static_cast<float>(uniformFrom(mixBits(bits)));
         return range.near_mm + t * (range.far_mm - range.near_mm);
       }
-    }
-    if (cosine < min_cos_) {
-      return 0.0F;
     }
     const double sigma_mm = depthSigmaMm(z, cosine) * model_.noise * (1.0 + 1.5 * double{weak});
     return z + static_cast<float>(sigma_mm) * noise_.at(u, v);

@@ -12,7 +12,8 @@ struct SensorModel {
   double noise = 1.0;  ///< 0: ideal; scales everything below
   std::uint64_t seed = 1;
   double max_incidence_deg = 75.0;     ///< nothing comes back beyond
-  double edge_step_mm = 8.0;           ///< a larger step between neighbours is a depth edge
+  double edge_step_mm = 2.0;           ///< a larger step among 3 x 3 pixels is a depth edge ...
+  double edge_step_share = 0.0145;     ///< ... plus this share of z: more than 75 degrees give
   double edge_hole_share = 0.45;       ///< of the pixels at an edge that return nothing
   double edge_flying_share = 0.25;     ///< of them that return something between near and far
   double projector_baseline_mm = 25.;  ///< the projector sits to the right: shadows to the left

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tarsus {
@@ -16,6 +18,14 @@ namespace tarsus {
 enum class FootCase { Forefoot, Heel, Lateral, Two };
 enum class CameraPath { Rig, Loop, Quick };
 enum class CameraLayout { Aligned, Offset };
+
+/// The words of the command line.
+[[nodiscard]] std::string_view nameOf(FootCase foot);
+[[nodiscard]] std::string_view nameOf(CameraPath path);
+[[nodiscard]] std::string_view nameOf(CameraLayout layout);
+[[nodiscard]] std::optional<FootCase> footCaseNamed(std::string_view name);
+[[nodiscard]] std::optional<CameraPath> cameraPathNamed(std::string_view name);
+[[nodiscard]] std::optional<CameraLayout> cameraLayoutNamed(std::string_view name);
 
 struct SimulatorOptions {
   FootCase foot = FootCase::Forefoot;
@@ -70,10 +80,21 @@ struct SimulatedScene {
 [[nodiscard]] std::unique_ptr<FrameSource> openSimulator(
     std::shared_ptr<const SimulatedScene> scene, const SimulatorOptions& options);
 
-/// Writes the scan folder and truth/ (mesh.ply, outline_N.json, skin_N.json, truth.json).
+/// Writes the scan folder and truth/: mesh.ply, intact.ply, outline_N.json, skin_N.json and
+/// truth.json (per wound the keys of measurement.json).
 /// @errors those of buildScene, FileUnwritable, DiskFull, Cancelled
 [[nodiscard]] Expected<void> simulateScan(const std::filesystem::path& folder,
                                           const SimulatorOptions& options,
                                           const Job& job);
+
+/// The same for a scene built already with these options.
+[[nodiscard]] Expected<void> writeSimulatedScan(const std::filesystem::path& folder,
+                                                const std::shared_ptr<const SimulatedScene>& scene,
+                                                const SimulatorOptions& options,
+                                                const Job& job);
+
+/// What every simulated foot measures, as a Markdown table (README.md keeps its last print).
+/// @errors those of buildScene
+[[nodiscard]] Expected<std::string> simulatedWoundTable(const std::filesystem::path& mesh = {});
 
 }  // namespace tarsus

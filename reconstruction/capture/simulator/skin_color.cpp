@@ -111,8 +111,8 @@ Color soleColor(const Vector3d& p) {
   Color c = mix(kSoleSkin, kArchSkin, bump(p.x() - 112, 34) * smoothStep(-25, 15, p.y()));
   c = mix(c, kPressed, 0.50 * pressure(p) * (0.85 + 0.4 * fractalNoise(p / 9.0, 2, 23)));
   c = mix(c, kCallus, 0.60 * callus(p) * (0.9 + 0.4 * fractalNoise(p / 5.0, 2, 24)));
-  c *= 1.0 + 0.040 * ridges(p);
-  return mix(c, kCrease, 0.55 * creases(p));
+  c *= 1.0 + 0.032 * ridges(p);
+  return mix(c, kCrease, 0.46 * creases(p));
 }
 
 Color backColor(const Vector3d& p) {
@@ -150,7 +150,7 @@ Color clothColor(const Vector3d& p) {
   return kCloth * (1.0 + 0.10 * weave + 0.16 * fractalNoise(p / 14.0, 4, 28));
 }
 
-Color skinColor(const Vector3d& p, const Vector3d& n) {
+Color skinColor(const Vector3d& p, const Vector3d& n, bool nails) {
   const double sole = smoothStep(-0.05, 0.45, -n.z()) * (1.0 - smoothStep(40, 70, p.z()));
   Color c = mix(backColor(p), soleColor(p), sole);
   c *= 1.0 + 0.050 * fractalNoise(p / 20.0, 3, 29) + 0.055 * fractalNoise(p / 2.4, 3, 30);
@@ -158,7 +158,7 @@ Color skinColor(const Vector3d& p, const Vector3d& n) {
   c = Color(
       c.x() * (1.0 + 0.01 * flush), c.y() * (1.0 - 0.05 * flush), c.z() * (1.0 - 0.05 * flush));
   c = mix(c, kPenInk, 0.72 * sole * penMarks(p));
-  return withNails(p, c);
+  return nails ? withNails(p, c) : c;
 }
 
 /// Share of the sky that hollows hide, from a few samples of the distance field.
@@ -179,23 +179,25 @@ std::vector<Rgb8> paintFoot(const IntactFoot& foot, const CarvedFoot& carved) {
   const Vector3d light = Vector3d(0.45, 0.25, -0.86).normalized();
   const std::vector<Vector3d> normals =
       normalsOf({.positions = carved.carved, .faces = carved.intact.faces});
+  const std::vector<WoundPainter> painters(carved.ulcers.begin(), carved.ulcers.end());
   std::vector<Rgb8> colors(carved.carved.size());
   const auto paint = [&](std::size_t i) {
     const Vector3d& p = carved.intact.positions[i];
     const Vector3d& n = carved.normals[i];
     const Vector3d standard = foot.toStandard(p);
     const bool cloth = foot.distance && standard.z() > 205.0;
-    Color c = cloth ? clothColor(standard) : skinColor(standard, n);
+    Color c =
+        cloth ? clothColor(standard) : skinColor(standard, n, static_cast<bool>(foot.distance));
     double hidden = cloth ? 0.0 : hollowness(foot, p, n);
-    for (const Ulcer& ulcer : carved.ulcers) {
+    for (std::size_t k = 0; k < painters.size(); ++k) {
+      const Ulcer& ulcer = carved.ulcers[k];
       if (carved.depth_mm[i] > 0.0 && ulcer.isNear(p, 0.0)) {
-        c = bedColor(ulcer, p);
+        c = painters[k].bed(p);
         // Deep and narrow is dark.
         hidden = std::max(
-            hidden,
-            0.75 * carved.depth_mm[i] / (carved.depth_mm[i] + ulcer.design().half_width_mm));
+            hidden, 0.6 * carved.depth_mm[i] / (carved.depth_mm[i] + ulcer.design().half_width_mm));
       } else {
-        c = marginColor(ulcer, p, c);
+        c = painters[k].margin(p, c);
       }
     }
     c = Color(c.x() * (1.0 - 0.55 * hidden),

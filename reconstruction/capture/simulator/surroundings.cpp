@@ -114,8 +114,11 @@ TexturedMesh makeSurroundings(const IntactFoot& foot) {
            {.corner = {x - 90, -330, edge_z}, .u = {0, 660, 0}, .v = {90, 0, 0}, .step_mm = 4},
            [x](const Vector3d& p) { return p.x() > x - 14 ? paperColor(p) : vinylColor(p); });
   addPanel(out,
-           {.corner = {-620, -800, wall_z}, .u = {0, 1600, 0}, .v = {1400, 0, 0}, .step_mm = 7},
+           {.corner = {-900, -2200, wall_z}, .u = {0, 4400, 0}, .v = {2900, 0, 0}, .step_mm = 9},
            wallColor);
+  addPanel(out,
+           {.corner = {-900, -2200, wall_z}, .u = {0, 0, -2200}, .v = {0, 4400, 0}, .step_mm = 25},
+           vinylColor);
   out.mesh.normals = vertexNormals(out.mesh);
   return out;
 }

@@ -5,8 +5,8 @@
 
 namespace tarsus {
 
-/// The bench that carries the calf, and the wall behind it; foot frame [mm]. The patient lies: the
-/// leg is level, the toes point up, the foot reaches over the bench's edge.
+/// The bench that carries the calf, the wall behind it and the floor; foot frame [mm]. The patient
+/// lies: the leg is level, the toes point up, the foot reaches over the bench's edge.
 [[nodiscard]] TexturedMesh makeSurroundings(const IntactFoot& foot);
 
 }  // namespace tarsus

@@ -52,10 +52,12 @@ class Ulcer {
   [[nodiscard]] double rimDistance(const Eigen::Vector3d& p) const;
   /// How far the skin at p is carved in along its own normal [mm]; 0 outside.
   [[nodiscard]] double depth(const Eigen::Vector3d& p) const;
+  /// 1 on an island of skin left within the bed, falling to 0 around it.
+  /// @param local  see local()
+  [[nodiscard]] double islandShare(const Eigen::Vector3d& local) const;
 
  private:
   [[nodiscard]] double rimRadius(double angle) const;
-  [[nodiscard]] double islandShare(const Eigen::Vector3d& local) const;
 
   static constexpr int kHarmonics = 7;
   UlcerDesign design_;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 namespace tarsus {
 namespace {
@@ -26,8 +28,26 @@ const Color kCallus(221, 188, 134);
 const Color kErythema(220, 120, 108);
 const Color kPenInk(40, 46, 124);
 
-/// The noise level above which about `share` of the bed lies.
-double levelFor(double share) { return 0.42 - 0.9 * share; }
+double sloughNoise(const Vector3d& q) { return fractalNoise(q / 5.5, 4, 43); }
+double necrosisNoise(const Vector3d& q) { return fractalNoise(q / 6.5, 3, 45); }
+
+/// The level of the noise above which `share` of the bed lies, 1 mm from the rim inwards.
+double levelFor(const Ulcer& ulcer, double share, double (*noise)(const Vector3d&)) {
+  std::vector<double> values;
+  const double reach = ulcer.reachMm();
+  for (double x = -reach; x < reach; x += 0.5) {
+    for (double y = -reach; y < reach; y += 0.5) {
+      if (ulcer.rimDistance(ulcer.center() + ulcer.worldDirection({x, y})) < -1.0) {
+        values.push_back(noise({x, y, 0.0}));
+      }
+    }
+  }
+  if (share <= 0.0 || values.empty()) {
+    return 10.0;
+  }
+  std::ranges::sort(values, std::greater<>());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
 
 /// Ticks of a skin marker at the four main hours, 5-10 mm outside the rim.
 double penTick(const Ulcer& ulcer, const Vector3d& p, double rim_mm) {
@@ -39,37 +59,39 @@ double penTick(const Ulcer& ulcer, const Vector3d& p, double rim_mm) {
 
 }  // namespace
 
-Color bedColor(const Ulcer& ulcer, const Vector3d& p) {
-  Vector3d q = ulcer.local(p);
+WoundPainter::WoundPainter(const Ulcer& ulcer)
+    : ulcer_(ulcer),
+      slough_level_(levelFor(ulcer, ulcer.design().slough, sloughNoise)),
+      necrosis_level_(levelFor(ulcer, ulcer.design().necrosis, necrosisNoise)) {}
+
+Color WoundPainter::bed(const Vector3d& p) const {
+  Vector3d q = ulcer_.local(p);
   q.z() = 0.0;
-  const double inside_mm = -ulcer.rimDistance(p);
+  const double inside_mm = -ulcer_.rimDistance(p);
   const double bud = cellNoise(q / 1.9 + Vector3d(3, 7, 0), 41);
   Color c = mix(kBud, kGranulation, smoothStep(0.1, 0.5, bud));
   c = mix(c, kBetweenBuds, 0.8 * smoothStep(0.5, 0.95, bud));
   c *= 1.0 + 0.10 * fractalNoise(q / 3.0, 3, 42);
 
-  const double deep = smoothStep(0.6, 3.0, inside_mm);
-  const UlcerDesign& design = ulcer.design();
-  const double slough_at = levelFor(design.slough);
-  const double slough =
-      deep * smoothStep(slough_at - 0.06, slough_at + 0.1, fractalNoise(q / 5.5, 4, 43));
+  const double slough = smoothStep(0.6, 2.0, inside_mm) *
+                        smoothStep(slough_level_ - 0.06, slough_level_ + 0.06, sloughNoise(q));
   const double fibres = smoothStep(-0.3, 0.5, fractalNoise({q.x() / 1.1, q.y() / 4.0, 0}, 3, 44));
   c = mix(c, mix(kSlough, kSloughDark, 0.6 * fibres), 0.92 * slough);
 
-  const double necrosis_at = levelFor(design.necrosis);
   const double necrosis =
-      smoothStep(0.3, 1.4, inside_mm) *
-      smoothStep(necrosis_at - 0.02, necrosis_at + 0.05, fractalNoise(q / 6.5, 3, 45));
+      smoothStep(0.3, 1.2, inside_mm) *
+      smoothStep(necrosis_level_ - 0.02, necrosis_level_ + 0.02, necrosisNoise(q));
   c = mix(c, kNecrosis * (1.0 + 0.25 * fractalNoise(q / 1.5, 2, 46)), necrosis);
+  c = mix(c, kEpithelium, 0.9 * smoothStep(0.35, 0.75, ulcer_.islandShare(q)));
   // A thin line of new skin at the rim.
   return mix(c, kEpithelium, 0.75 * (1.0 - smoothStep(0.1, 0.9, inside_mm)));
 }
 
-Color marginColor(const Ulcer& ulcer, const Vector3d& p, const Color& skin) {
-  if (!ulcer.isNear(p, 16.0)) {
+Color WoundPainter::margin(const Vector3d& p, const Color& skin) const {
+  if (!ulcer_.isNear(p, 16.0)) {
     return skin;
   }
-  const double rim_mm = ulcer.rimDistance(p);
+  const double rim_mm = ulcer_.rimDistance(p);
   const double ragged = 1.0 + 0.5 * fractalNoise(p / 6.0, 3, 51);
   const double r = rim_mm / std::max(ragged, 0.4);
   Color c = mix(skin, kErythema, 0.30 * (1.0 - smoothStep(2.0, 14.0, r)));
@@ -79,7 +101,7 @@ Color marginColor(const Ulcer& ulcer, const Vector3d& p, const Color& skin) {
                      smoothStep(-0.1, 0.3, fractalNoise(p / 5.0, 2, 52));
   c = mix(c, kMaceration, 0.55 * wet);
   c = mix(c, kPinkMargin, 0.85 * (1.0 - smoothStep(0.4, 2.2, r)));
-  const double ink = penTick(ulcer, p, rim_mm) * (0.72 + 0.25 * fractalNoise(p / 0.8, 2, 53));
+  const double ink = penTick(ulcer_, p, rim_mm) * (0.72 + 0.25 * fractalNoise(p / 0.8, 2, 53));
   return mix(c, kPenInk, std::clamp(ink, 0.0, 0.85));
 }
 

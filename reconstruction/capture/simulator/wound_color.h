@@ -5,11 +5,23 @@
 
 namespace tarsus {
 
-/// Bed and wall of an ulcer: granulation, slough, necrosis.
-/// @param p  on the intact skin inside the rim
-[[nodiscard]] Color bedColor(const Ulcer& ulcer, const Eigen::Vector3d& p);
+/// Paints one ulcer and the skin around it.
+class WoundPainter {
+ public:
+  explicit WoundPainter(const Ulcer& ulcer);
 
-/// What the ulcer does to the skin around it: pink margin, maceration, callus, redness, pen marks.
-[[nodiscard]] Color marginColor(const Ulcer& ulcer, const Eigen::Vector3d& p, const Color& skin);
+  /// Bed and wall: granulation, slough, necrosis, islands of skin.
+  /// @param p  on the intact skin inside the rim
+  [[nodiscard]] Color bed(const Eigen::Vector3d& p) const;
+
+  /// What the ulcer does to the skin around it: pink margin, maceration, callus, redness, pen
+  /// marks.
+  [[nodiscard]] Color margin(const Eigen::Vector3d& p, const Color& skin) const;
+
+ private:
+  Ulcer ulcer_;
+  double slough_level_;  ///< the noise above which the ordered share of the bed lies
+  double necrosis_level_;
+};
 
 }  // namespace tarsus
