@@ -92,17 +92,15 @@ class Aligner {
       const Vector6d step = solve(sums, free_directions);
       const RigidTransform candidate = moved(pose, step);
       sums = evaluate(candidate);
-      const AlignmentResult result = describe(candidate, sums);
-      const double length = stepLength(step);
-      if (result.cost_mm2 >= best.cost_mm2) {
-        // Small steps that gain nothing are the end; a large one that lost ground is taken back.
-        best.free_directions = free_directions;
-        break;
+      AlignmentResult result = describe(candidate, sums);
+      result.free_directions = free_directions;
+      // The cost may rise for a while, when points enter the field: go on, but keep the best.
+      if (result.cost_mm2 < best.cost_mm2) {
+        best = result;
       }
-      pose = candidate;
-      best = result;
       best.free_directions = free_directions;
-      if (length < options_.stop_step_mm) {
+      pose = candidate;
+      if (stepLength(step) < options_.stop_step_mm) {
         break;
       }
     }

@@ -169,6 +169,31 @@ TARSUS_VECTOR_CODE void fillGaps(
   }
 }
 
+/// The farthest depth that is used of a frame.
+float depthLimit(const DepthImage& depth, const DepthPlaneOptions& options) {
+  const auto bins = static_cast<std::size_t>(options.max_depth_mm) + 1;
+  std::vector<int> histogram(bins, 0);
+  int valid = 0;
+  for (const float z : depth.pixels()) {
+    if (z >= static_cast<float>(options.min_depth_mm) &&
+        z <= static_cast<float>(options.max_depth_mm)) {
+      ++histogram[static_cast<std::size_t>(z)];
+      ++valid;
+    }
+  }
+  std::size_t bin = 0;
+  for (int seen = 0; bin < bins; ++bin) {
+    seen += histogram[bin];
+    if (10 * seen > valid) {
+      break;
+    }
+  }
+  const double limit = options.max_depth_ratio > 0.0
+                           ? options.max_depth_ratio * static_cast<double>(bin)
+                           : options.max_depth_mm;
+  return static_cast<float>(std::min(limit, options.max_depth_mm));
+}
+
 /// Depths in range, without the gaps one pixel wide that registering depth to colour leaves in
 /// every few rows and columns.
 std::vector<float> usableDepth(const Intrinsics& intrinsics,
@@ -176,7 +201,7 @@ std::vector<float> usableDepth(const Intrinsics& intrinsics,
                                const DepthPlaneOptions& options) {
   std::vector<float> z(depth.pixels().begin(), depth.pixels().end());
   const auto nearest = static_cast<float>(options.min_depth_mm);
-  const auto farthest = static_cast<float>(options.max_depth_mm);
+  const float farthest = depthLimit(depth, options);
   for (float& value : z) {
     value = value >= nearest && value <= farthest ? value : 0.0F;
   }

@@ -33,6 +33,9 @@ struct DepthPlanes {
 struct DepthPlaneOptions {
   double min_depth_mm = 100.0;
   double max_depth_mm = 1500.0;
+  /// Farther than this times the nearest tenth of the frame: background, noisy and large, that
+  /// holds neither pose nor measure. 0: no such limit. Ours.
+  double max_depth_ratio = 2.0;
   double max_incidence_deg = 75.0;  ///< beyond, a coded-light camera returns little but errors
 };
 

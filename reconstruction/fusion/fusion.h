@@ -14,6 +14,9 @@ struct TrackingOptions {
   double coarse_delta_mm = 28.0;
   double lost_rmse_mm = 2.5;          ///< above: lost (prototype: <= 1.2 good, >= 3.4 lost)
   double lost_inlier_fraction = 0.4;  ///< below: lost
+  double min_depth_mm = 100.0;        ///< nearer or farther depth is not looked at
+  double max_depth_mm = 1500.0;
+  double max_depth_ratio = 2.0;  ///< as TsdfOptions
 };
 
 struct TrackingResult {

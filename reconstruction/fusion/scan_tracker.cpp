@@ -35,8 +35,13 @@ TsdfWeighting coarseWeighting(const TrackingOptions& options) {
           .sigma_per_mm2 = options.weighting.sigma_per_mm2 * ratio * ratio};
 }
 
-TsdfOptions volumeOptions(double voxel_size_mm, const TsdfWeighting& weighting) {
+TsdfOptions volumeOptions(const TrackingOptions& options,
+                          double voxel_size_mm,
+                          const TsdfWeighting& weighting) {
   TsdfOptions result;
+  result.min_depth_mm = options.min_depth_mm;
+  result.max_depth_mm = options.max_depth_mm;
+  result.max_depth_ratio = options.max_depth_ratio;
   result.voxel_size_mm = voxel_size_mm;
   result.weighting = weighting;
   result.with_color = false;
@@ -64,9 +69,11 @@ struct ScanTracker::State {
   State(const RgbdCamera& scan_camera, const TrackingOptions& tracking_options)
       : camera(scan_camera),
         options(tracking_options),
-        coarse(volumeOptions(tracking_options.coarse_voxel_size_mm,
+        coarse(volumeOptions(tracking_options,
+                             tracking_options.coarse_voxel_size_mm,
                              coarseWeighting(tracking_options))),
-        fine(volumeOptions(tracking_options.voxel_size_mm, tracking_options.weighting)) {}
+        fine(volumeOptions(
+            tracking_options, tracking_options.voxel_size_mm, tracking_options.weighting)) {}
 
   RgbdCamera camera;
   TrackingOptions options;
@@ -189,11 +196,12 @@ FramePose ScanTracker::push(const RgbdFrame& frame) {
   FramePose pose;
   pose.frame_index = frame.index;
   pose.timestamp = frame.timestamp;
-  const TsdfOptions& volume = state_->fine.options();
-  const DepthPlanes planes =
-      fitDepthPlanes(state_->camera.depth,
-                     frame.depth,
-                     {.min_depth_mm = volume.min_depth_mm, .max_depth_mm = volume.max_depth_mm});
+  const TrackingOptions& options = state_->options;
+  const DepthPlanes planes = fitDepthPlanes(state_->camera.depth,
+                                            frame.depth,
+                                            {.min_depth_mm = options.min_depth_mm,
+                                             .max_depth_mm = options.max_depth_mm,
+                                             .max_depth_ratio = options.max_depth_ratio});
   const double share =
       planes.valid_count / std::max(1.0, static_cast<double>(planes.quality.size()));
   if (share < kLeastValidShare) {

@@ -123,10 +123,11 @@ const TsdfOptions& TsdfVolume::options() const { return grid_->options; }
 void TsdfVolume::integrate(const RgbdCamera& camera,
                            const RgbdFrame& frame,
                            const RigidTransform& scan_from_camera) {
-  const DepthPlanes planes = fitDepthPlanes(
-      camera.depth,
-      frame.depth,
-      {.min_depth_mm = options().min_depth_mm, .max_depth_mm = options().max_depth_mm});
+  const DepthPlanes planes = fitDepthPlanes(camera.depth,
+                                            frame.depth,
+                                            {.min_depth_mm = options().min_depth_mm,
+                                             .max_depth_mm = options().max_depth_mm,
+                                             .max_depth_ratio = options().max_depth_ratio});
   integrate(camera, planes, frame.color, scan_from_camera);
 }
 

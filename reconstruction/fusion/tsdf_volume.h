@@ -38,6 +38,8 @@ struct TsdfOptions {
   TsdfWeighting weighting = TsdfWeighting::surface();
   double min_depth_mm = 100.0;  ///< nearer or farther depth is not fused
   double max_depth_mm = 1500.0;
+  /// Nor is depth beyond this times the nearest tenth of its frame (far background); 0: no limit.
+  double max_depth_ratio = 2.0;
   bool with_color = true;
 };
 
