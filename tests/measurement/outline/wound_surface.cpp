@@ -50,12 +50,24 @@ Relief crater(double radius_mm, double depth_mm, double wall_mm) {
   };
 }
 
-double Dice::uniform() {
-  state_ += 0x9E3779B97F4A7C15ULL;  // SplitMix64
-  std::uint64_t z = state_;
+namespace {
+
+std::uint64_t mix(std::uint64_t z) {  // SplitMix64
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  return z ^ (z >> 31);
+}
+
+constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15ULL;
+
+}  // namespace
+
+// Mixed first: the streams of seeds that differ by one would otherwise be one stream, shifted.
+Dice::Dice(std::uint64_t seed) : state_(mix(mix(seed + kStep) ^ 0x632BE59BD9B4E019ULL)) {}
+
+double Dice::uniform() {
+  state_ += kStep;
+  return static_cast<double>(mix(state_) >> 11) * 0x1.0p-53;
 }
 
 double Dice::normal() {

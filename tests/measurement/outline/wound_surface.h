@@ -48,8 +48,7 @@ class CorrelatedNoise {
 /// Numbers in [0, 1) and normal deviates from a counter: the same everywhere.
 class Dice {
  public:
-  explicit Dice(std::uint64_t seed)
-      : state_(seed * 0x9E3779B97F4A7C15ULL + 0x632BE59BD9B4E019ULL) {}
+  explicit Dice(std::uint64_t seed);
   [[nodiscard]] double uniform();
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
   [[nodiscard]] double normal();
