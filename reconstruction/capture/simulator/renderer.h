@@ -22,13 +22,13 @@ class Renderer {
                                  const RigidTransform& scan_from_camera) const;
 
  private:
-  struct Row;
-  void renderRow(const Intrinsics& camera,
-                 const RigidTransform& scan_from_camera,
-                 int v,
-                 IdealView& view) const;
+  void renderTileRow(const Intrinsics& camera,
+                     const RigidTransform& scan_from_camera,
+                     int first_v,
+                     IdealView& view) const;
 
   TexturedMesh everything_;
+  std::vector<Eigen::Vector3f> face_normals_;
   MeshIndex index_;
 };
 
