@@ -1,4 +1,4 @@
-#include "bench_support.h"
+#include "tests/benchmark/bench_support.h"
 
 #include "reconstruction/capture/trajectory_file.h"
 

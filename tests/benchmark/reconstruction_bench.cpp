@@ -1,6 +1,5 @@
 // Tables of figures on whole scans; the last line of this file says how to call it.
 
-#include "bench_support.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
@@ -10,6 +9,7 @@
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/mesh_picture.h"
 #include "reconstruction/scene/ply.h"
+#include "tests/benchmark/bench_support.h"
 
 #include <algorithm>
 #include <array>

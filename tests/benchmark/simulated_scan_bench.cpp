@@ -1,10 +1,10 @@
-#include "bench_support.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/fusion/fusion.h"
 #include "reconstruction/fusion/surface_cleanup.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/mesh_picture.h"
+#include "tests/benchmark/bench_support.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,4 +1,4 @@
-#include "analytic_scene.h"
+#include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <algorithm>
 #include <cmath>

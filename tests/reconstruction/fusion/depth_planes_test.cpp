@@ -1,6 +1,6 @@
 #include "reconstruction/fusion/depth_planes.h"
 
-#include "analytic_scene.h"
+#include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "reconstruction/fusion/scan_tracker.h"
 
-#include "analytic_scene.h"
+#include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,7 +1,7 @@
 #include "reconstruction/fusion/tsdf_volume.h"
 
-#include "analytic_scene.h"
 #include "reconstruction/fusion/surface_cleanup.h"
+#include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <gtest/gtest.h>
 #include <omp.h>
