@@ -153,6 +153,10 @@ class Aligner {
       if (rest <= 0.0F) {
         continue;
       }
+      SdfSample smoother;
+      if (options_.gradient_field != nullptr && options_.gradient_field->sample(p, smoother)) {
+        sample.gradient = smoother.gradient;
+      }
       const float weight = point.weight * rest * rest;  // Tukey's biweight
       Eigen::Matrix<float, 6, 1> j;
       j.head<3>() = (p - center).cross(sample.gradient) * kPerLever;

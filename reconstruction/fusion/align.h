@@ -19,6 +19,9 @@ struct AlignmentOptions {
   double kernel_mm = 9.0;     ///< Tukey's: residuals beyond count nothing
   double inlier_mm = 2.5;     ///< what counts as inlier
   double stop_step_mm = 0.1;  ///< ends when points 100 mm away move less
+  /// Where the gradient is taken instead, if it is known there: a wider field is smoother, and
+  /// noise in the gradient looks like information that holds the pose where it started.
+  const TsdfVolume* gradient_field = nullptr;
 };
 
 struct AlignmentResult {

@@ -98,17 +98,19 @@ struct ScanTracker::State {
     result = alignToField(fine,
                           points.some,
                           result.scan_from_camera,
-                          {.max_iterations = 6,
+                          {.max_iterations = 4,
                            .kernel_mm = delta,
                            .inlier_mm = options.lost_rmse_mm,
-                           .stop_step_mm = 0.2});
+                           .stop_step_mm = 0.3,
+                           .gradient_field = &coarse});
     return alignToField(fine,
                         points.many,
                         result.scan_from_camera,
-                        {.max_iterations = 4,
+                        {.max_iterations = 3,
                          .kernel_mm = std::clamp(3.0 * result.rmse_mm, 1.5, delta),
                          .inlier_mm = options.lost_rmse_mm,
-                         .stop_step_mm = 0.02});
+                         .stop_step_mm = 0.06,
+                         .gradient_field = &coarse});
   }
 
   [[nodiscard]] bool believable(const AlignmentResult& result, bool strict) const {
