@@ -122,9 +122,9 @@ Pairs qualityPairs(const ReportContent& content) {
     pairs.emplace_back(QString::fromStdString(name), QString::fromStdString(value));
   }
   const QString method = QString::fromStdString(content.measurement.method);
-  pairs.emplace_back(Words::tr("reference skin"),
+  pairs.emplace_back(Words::tr("Reference skin"),
                      method.isEmpty() ? Words::tr("not recorded") : method);
-  pairs.emplace_back(Words::tr("fit for measurement"),
+  pairs.emplace_back(Words::tr("Fit for measurement"),
                      content.fit_for_measurement ? Words::tr("yes") : Words::tr("no"));
   return pairs;
 }
