@@ -68,8 +68,8 @@ TEST(WriteReport, SaysEveryValueUnitAndIntervalOnTwoPages) {
               "of the bed",
               "page 2/2",
               "Frames tracked 600 of 600",
-              "reference skin smooth skin 1.0",
-              "fit for measurement yes",
+              "Reference skin smooth skin 1.0",
+              "Fit for measurement yes",
               "Volume / area is 2.2 mm: below 4 mm the volume is less precise."});
 }
 
@@ -148,7 +148,7 @@ TEST(WriteReport, SaysThatAnUnfitModelIsUnfit) {
   }
   EXPECT_EQ(pages[0].find("3.1 s.;"), std::string::npos);
   expectText(pages[0], {"Do not use the numbers; scan again."});
-  expectText(pages[1], {"fit for measurement no"});
+  expectText(pages[1], {"Fit for measurement no"});
 }
 
 TEST(WriteReport, NeverCutsAWarningButTakesAnotherPage) {
