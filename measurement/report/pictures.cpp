@@ -137,7 +137,10 @@ void drawContours(PageCanvas& canvas, const ReportContent& content, const Pictur
   canvas.path(lines, roundPen(ink::kHalo, 0.15));
 }
 
-void cutLine(PageCanvas& canvas, const SectionProfile& section, const PictureMap& map) {
+void cutLine(PageCanvas& canvas,
+             const SectionProfile& section,
+             const PictureMap& map,
+             const QRectF& box_mm) {
   const QPointF a = map.at(section.ends_px[0]);
   const QPointF b = map.at(section.ends_px[1]);
   QPainterPath line(a);
@@ -149,9 +152,18 @@ void cutLine(PageCanvas& canvas, const SectionProfile& section, const PictureMap
   canvas.path(line, dash);
   const QPointF along = (b - a) / std::max(1e-9, std::hypot(b.x() - a.x(), b.y() - a.y()));
   const TextStyle style = type::kCell.asBold();
-  canvas.haloText(a - along * 3.0 - QPointF(0, 2.0), QStringLiteral("A"), style, Qt::AlignHCenter);
-  canvas.haloText(
-      b + along * 3.0 - QPointF(0, 2.0), QStringLiteral(u"A\u2032"), style, Qt::AlignHCenter);
+  // Beyond the line's ends, but never beyond the picture's edge.
+  const auto label = [&](const QPointF& at, const QString& text) {
+    const QRectF inside = box_mm.adjusted(3.0, 0.5, -3.0, -5.0);
+    const QPointF corner = at - QPointF(0, 2.0);
+    canvas.haloText({std::clamp(corner.x(), inside.left(), inside.right()),
+                     std::clamp(corner.y(), inside.top(), inside.bottom())},
+                    text,
+                    style,
+                    Qt::AlignHCenter);
+  };
+  label(a - along * 3.0, QStringLiteral("A"));
+  label(b + along * 3.0, QStringLiteral(u"A\u2032"));
 }
 
 void depthView(PageCanvas& canvas, const ReportContent& content, const QRectF& box_mm) {
@@ -161,7 +173,7 @@ void depthView(PageCanvas& canvas, const ReportContent& content, const QRectF& b
     drawContours(canvas, content, map);
     drawOutline(canvas, map.closed(content.outline_px));
     if (content.section) {
-      cutLine(canvas, *content.section, map);
+      cutLine(canvas, *content.section, map, box_mm);
     }
     if (content.deepest_px) {
       drawCross(canvas, map.at(*content.deepest_px));

@@ -4,7 +4,6 @@
 #include "reconstruction/scene/frame.h"
 
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -65,14 +64,9 @@ void printLostFrames(const Trajectory& trajectory);
 
 /// What the command line gives.
 struct BenchArguments {
-  std::string input;               ///< a scan folder, or a simulated foot's name
+  std::string input;               ///< a scan folder
   std::filesystem::path pictures;  ///< empty: none
   double voxel_size_mm = 1.0;
-  int frames = 600;
-  std::uint64_t seed = 1;
 };
-
-/// Tracking, fusion and surface of a simulated scan from memory (no files), against its truth.
-void benchSimulated(const BenchArguments& arguments);
 
 }  // namespace tarsus

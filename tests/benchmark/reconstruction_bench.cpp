@@ -177,10 +177,9 @@ struct Benchmark {
 
 constexpr std::array kBenchmarks{
     Benchmark{"tabletop", [](const BenchArguments& a) { benchTabletop(scanOf(a)); }},
-    Benchmark{"bust", [](const BenchArguments& a) { benchBust(scanOf(a)); }},
-    Benchmark{"simulated", benchSimulated}};
+    Benchmark{"bust", [](const BenchArguments& a) { benchBust(scanOf(a)); }}};
 
-/// `--pictures DIR --voxel-mm X --frames N --seed N`, in any order.
+/// `--pictures DIR --voxel-mm X`, in any order.
 BenchArguments parse(std::span<char*> arguments) {
   BenchArguments result;
   result.input = arguments[0];
@@ -191,10 +190,6 @@ BenchArguments parse(std::span<char*> arguments) {
       result.pictures = value;
     } else if (option == "--voxel-mm") {
       result.voxel_size_mm = std::stod(value);
-    } else if (option == "--frames") {
-      result.frames = std::stoi(value);
-    } else if (option == "--seed") {
-      result.seed = std::stoull(value);
     }
   }
   return result;
@@ -218,7 +213,6 @@ int main(int argc, char** argv) {
     }
   }
   std::fprintf(stderr,
-               "usage: tarsus-bench tabletop|bust SCAN_FOLDER | simulated FOOT\n"
-               "       [--pictures DIR] [--voxel-mm 1] [--frames 600] [--seed 1]\n");
+               "usage: tarsus-bench tabletop|bust SCAN_FOLDER [--pictures DIR] [--voxel-mm 1]\n");
   return 2;
 }

@@ -7,11 +7,11 @@
 #include "reconstruction/scene/mesh_distance.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/ply.h"
+#include "tests/benchmark/bench_support.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -19,15 +19,6 @@
 namespace {
 
 using namespace tarsus;  // NOLINT: a program of its own
-
-template <typename T>
-T orExit(Expected<T> value) {
-  if (!value) {
-    std::fprintf(stderr, "tarsus-bench-simulated: %s\n", describe(value.error()).c_str());
-    std::exit(1);
-  }
-  return std::move(*value);
-}
 
 constexpr std::chrono::microseconds kSameTime{2000};
 
