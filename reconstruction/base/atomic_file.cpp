@@ -111,7 +111,12 @@ Expected<void> writeFileAtomically(
     written = flushToDisk(temporary);
   }
   if (!written) {
-    return written;
+    Error error = written.error();
+    // The user knows the file by its own name, not by the one it was written under.
+    if (const auto at = error.detail.find(temporary.string()); at != std::string::npos) {
+      error.detail.replace(at, temporary.string().size(), path.string());
+    }
+    return tl::unexpected(std::move(error));
   }
   std::error_code error;
   fs::rename(temporary, path, error);

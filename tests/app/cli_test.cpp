@@ -16,13 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct Outcome {
   int exit_code = -1;
   std::string output;  ///< stdout and stderr
 };
 
-Run runShell(const std::string& command) {
-  Run run;
+Outcome runShell(const std::string& command) {
+  Outcome run;
   FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer{};
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
@@ -33,7 +33,7 @@ Run runShell(const std::string& command) {
   return run;
 }
 
-Run cli(const std::string& arguments) {
+Outcome cli(const std::string& arguments) {
   return runShell(std::string(TARSUS_CLI) + " " + arguments);
 }
 
@@ -65,7 +65,7 @@ class Cli : public ::testing::Test {
   }
   /// Runs, expects exit 1, and that the JSON names `code` and the sentence stands on stderr.
   void expectRefused(const std::string& arguments, const std::string& code) const {
-    const Run run = cli(arguments + " --json " + file("result.json"));
+    const Outcome run = cli(arguments + " --json " + file("result.json"));
     EXPECT_EQ(run.exit_code, 1) << run.output;
     const auto json = readJson(file("result.json"));
     ASSERT_TRUE(json.is_object()) << run.output;
@@ -82,7 +82,7 @@ TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_EQ(cli("--help").exit_code, 0);
   for (const std::string command :
        {"simulate", "reconstruct", "evaluate", "measure", "report", "demo"}) {
-    const Run run = cli(command + " --help");
+    const Outcome run = cli(command + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_NE(run.output.find("--json"), std::string::npos) << run.output;
   }
@@ -166,8 +166,8 @@ TEST_F(Cli, ModelThatIsNoMeshIsRefused) {
 
 TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
   writeSquare(file("square.ply"));
-  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
-                      " --quiet --json " + file("result.json"));
+  const Outcome run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                          " --quiet --json " + file("result.json"));
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const auto json = readJson(file("result.json"));
   EXPECT_LT(json.at("hausdorff").get<double>(), 1e-5);
@@ -176,15 +176,16 @@ TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
 
 TEST_F(Cli, JsonToStdoutIsNothingButJson) {
   writeSquare(file("square.ply"));
-  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") + " --json -");
+  const Outcome run =
+      cli("evaluate " + file("square.ply") + " " + file("square.ply") + " --json -");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_TRUE(nlohmann::json::parse(run.output, nullptr, false).is_object()) << run.output;
 }
 
 TEST_F(Cli, AFullDeviceIsSaid) {
   writeSquare(file("square.ply"));
-  const Run run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
-                      " --quiet --json /dev/full");
+  const Outcome run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                          " --quiet --json /dev/full");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
   EXPECT_TRUE(fs::is_character_file("/dev/full"));  // not replaced by a file
@@ -198,11 +199,12 @@ TEST_F(Cli, AFullDiskLeavesNothingHalfWritten) {
   if (runShell(in_namespace + mount + "true'").exit_code != 0) {
     GTEST_SKIP() << "no small disk can be mounted here";
   }
-  const Run run = runShell(in_namespace + mount + TARSUS_CLI + " simulate " + disk +
-                           "/scan --frames 3; echo exit $?; find " + disk + " -name \".*part*\"'");
+  const Outcome run =
+      runShell(in_namespace + mount + TARSUS_CLI + " simulate " + disk +
+               "/scan --frames 3; echo exit $?; echo LEFT; find " + disk + " -name \".*part*\"'");
   EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("exit 1"), std::string::npos) << run.output;
-  EXPECT_EQ(run.output.find("part"), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("part", run.output.find("LEFT")), std::string::npos) << run.output;
 }
 
 TEST_F(Cli, AnUnwritableFolderIsSaid) {
