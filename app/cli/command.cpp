@@ -2,6 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <set>
+#include <vector>
+
 namespace tarsus {
 
 CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const char* what) {
@@ -10,6 +14,27 @@ CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const ch
       ->type_name("FILE");
   sub->add_flag("--quiet", command.quiet, "No progress bar and no text on stdout");
   return sub;
+}
+
+std::string outputThatIsInput(const CLI::App& sub) {
+  const std::set<std::string> outputs{"--json", "OUT", "OUT_DIR", "--heatmap", "--artifacts"};
+  std::vector<std::string> written;
+  std::vector<std::string> read;
+  for (const CLI::Option* option : sub.get_options()) {
+    auto& files = outputs.contains(option->get_name()) ? written : read;
+    for (const std::string& value : option->results()) {
+      files.push_back(value);
+    }
+  }
+  std::error_code no_such_file;
+  for (const std::string& output : written) {
+    for (const std::string& input : read) {
+      if (std::filesystem::equivalent(output, input, no_such_file)) {
+        return output;
+      }
+    }
+  }
+  return {};
 }
 
 }  // namespace tarsus

@@ -24,6 +24,10 @@ struct Command {
 /// A subcommand with the options that all have (--json, --quiet).
 CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const char* what);
 
+/// The output of a parsed subcommand that names one of its own inputs, or empty: writing it would
+/// destroy what was read.
+[[nodiscard]] std::string outputThatIsInput(const CLI::App& sub);
+
 void addSimulate(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);

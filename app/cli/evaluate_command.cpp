@@ -70,6 +70,10 @@ Expected<nlohmann::json> evaluate(const Arguments& arguments, bool printing) {
   options.align_icp = arguments.align == "icp";
   if (arguments.region.size() == 4) {
     const auto& r = arguments.region;
+    const bool usable = std::ranges::all_of(r, [](double x) { return std::isfinite(x); });
+    if (!usable || r[3] <= 0.0) {
+      return fail(ErrorCode::BadOption, "--region needs a point and a radius greater than 0");
+    }
     options.region = Ball{.center_mm = {r[0], r[1], r[2]}, .radius_mm = r[3]};
   }
   auto comparison = compareMeshes(model->mesh, reference->mesh, options);

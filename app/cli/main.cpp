@@ -88,6 +88,13 @@ int parseAndRun(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
+  for (const CLI::App* sub : app.get_subcommands()) {
+    if (const std::string file = outputThatIsInput(*sub); !file.empty()) {
+      std::cerr << "tarsus-cli: " << file
+                << " is read by this command and would be overwritten; give another output.\n";
+      return kWrongUsage;
+    }
+  }
   return run(command);
 }
 

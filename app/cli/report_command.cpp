@@ -19,7 +19,11 @@ void addReport(CLI::App& app, Command& command) {
   CLI::App* sub = addCommand(app, command, "report", "Measure one wound and print it as PDF");
   addWoundOptions(*sub, arguments->wound);
   sub->add_option("OUT", arguments->pdf, "The PDF to write")->required()->type_name("OUT.pdf");
-  sub->add_option("--title", arguments->title, "Who, which wound, which scan")->type_name("TEXT");
+  sub->add_option("--title", arguments->title, "Who, which wound, which scan; at most 200 letters")
+      ->type_name("TEXT")
+      ->check([](const std::string& title) {
+        return title.size() <= 200 ? std::string() : std::string("longer than 200 letters");
+      });
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& /*job*/) -> Expected<nlohmann::json> {
       auto measured = measureFiles(arguments->wound);

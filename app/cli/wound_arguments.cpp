@@ -7,8 +7,49 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
+#include <iterator>
 
 namespace tarsus {
+namespace {
+
+/// @errors BadOption
+Expected<void> checkLandmarks(const std::optional<Landmarks>& landmarks) {
+  // A child's foot to the largest shoe, with room: what lies outside was not marked on a foot.
+  constexpr double kShortestFoot_mm = 50.0;
+  constexpr double kLongestFoot_mm = 500.0;
+  if (!landmarks) {
+    return {};
+  }
+  const double length_mm = (landmarks->toe_mm - landmarks->heel_mm).norm();
+  const bool plausible = length_mm >= kShortestFoot_mm && length_mm <= kLongestFoot_mm;
+  return plausible ? Expected<void>()
+                   : fail(ErrorCode::BadOption,
+                          "--heel and --toe must lie 50 to 500 mm apart, in the model's own mm");
+}
+
+/// Points that had to be moved far to lie on the model hint at another scan or a wrong unit.
+void warnOfSnapping(const std::vector<Eigen::Vector3d>& points_mm,
+                    const MeshIndex& index,
+                    Warnings& warnings) {
+  constexpr double kQuiet_mm = 1.0;  // a drawn point is as good as the voxel
+  double farthest_mm = 0.0;
+  for (const Eigen::Vector3d& point : points_mm) {
+    const auto nearest = index.nearest(point, 100.0);
+    farthest_mm = std::max(farthest_mm, nearest ? nearest->distance_mm : 100.0);
+  }
+  if (farthest_mm > kQuiet_mm) {
+    char text[160];
+    std::snprintf(text,
+                  sizeof text,
+                  "The outline was moved by up to %.1f mm to lie on the model; check that both "
+                  "belong together.",
+                  farthest_mm);
+    warnings.push_back({"outline_moved", text});
+  }
+}
+
+}  // namespace
 
 void addWoundOptions(CLI::App& sub, WoundArguments& arguments) {
   sub.add_option("MODEL", arguments.model, "model.ply, mm")->required();
@@ -36,11 +77,13 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
     return tl::unexpected(foot.error());
   }
   const MeshIndex index(foot->mesh);
+  Warnings warnings;
   const auto trace = [&](const std::filesystem::path& path) -> Expected<WoundOutline> {
     auto points = readOutlinePoints(path);
     if (!points) {
       return tl::unexpected(points.error());
     }
+    warnOfSnapping(*points, index, warnings);
     return traceOutline(*foot, index, *points);
   };
   auto outline = trace(arguments.outline);
@@ -60,10 +103,14 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
     landmarks = Landmarks{.heel_mm = Eigen::Vector3d(arguments.heel_mm.data()),
                           .toe_mm = Eigen::Vector3d(arguments.toe_mm.data())};
   }
+  if (auto checked = checkLandmarks(landmarks); !checked) {
+    return tl::unexpected(checked.error());
+  }
   auto wound = measureWound(*foot, *outline, skin_curve, landmarks);
   if (!wound) {
     return tl::unexpected(wound.error());
   }
+  std::ranges::copy(warnings, std::back_inserter(wound->numbers.warnings));
   const bool unfit =
       std::ranges::find(foot->comments, "fit_for_measurement no") != foot->comments.end();
   if (unfit) {

@@ -138,6 +138,11 @@ class WoundMeasurer {
            "Volume / area is " + oneDecimal(*numbers_.mean_depth_mm) +
                " mm; below 4 mm a volume is less precise than 5 %.");
     }
+    if (*numbers_.volume_above_mm3 > *numbers_.volume_mm3) {
+      warn("bed_above_skin",
+           "More of the bed lies above the reference skin than below it: the wound is overgrown, "
+           "or the faces of this model point inwards; look at the model before you use a number.");
+    }
     if (nearModelEdge(site_, options_.skin_curve_offset_mm + 1.0)) {
       warn("outline_at_model_edge",
            "The outline lies at a hole or at the edge of the model; scan that place again.");

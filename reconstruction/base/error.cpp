@@ -69,7 +69,7 @@ constexpr std::array kEntries{
     Entry{ErrorCode::KeyframesMissing,
           "keyframes_missing",
           "No colour picture could be used for the texture; scan again with more light and slower "
-          "motion."},
+          "motion, or make the model without colour by --no-texture."},
     Entry{ErrorCode::OutlineInvalid,
           "outline_invalid",
           "The outline cannot be used; it needs at least three different points around the wound, "

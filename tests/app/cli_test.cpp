@@ -164,6 +164,39 @@ TEST_F(Cli, ModelThatIsNoMeshIsRefused) {
   expectRefused("evaluate " + file("model.ply") + " " + file("model.ply"), "mesh_invalid");
 }
 
+TEST_F(Cli, NothingThatIsReadIsOverwritten) {
+  writeSquare(file("square.ply"));
+  writeText(file("outline.json"), "{}");
+  const auto size = fs::file_size(file("square.ply"));
+  for (const std::string& arguments : {"report " + file("square.ply") + " " + file("square.ply") +
+                                           " --outline " + file("outline.json"),
+                                       "measure " + file("square.ply") + " --outline " +
+                                           file("outline.json") + " --json " + file("outline.json"),
+                                       "evaluate " + file("square.ply") + " " + file("square.ply") +
+                                           " --heatmap " + file("square.ply")}) {
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_NE(run.output.find("would be overwritten"), std::string::npos) << run.output;
+  }
+  EXPECT_EQ(fs::file_size(file("square.ply")), size);
+  EXPECT_EQ(fs::file_size(file("outline.json")), 2U);
+}
+
+TEST_F(Cli, ImpossibleValuesAreRefused) {
+  writeSquare(file("square.ply"));
+  const std::string square = file("square.ply");
+  expectRefused("evaluate " + square + " " + square + " --region 0,0,400,-5", "bad_option");
+  expectRefused("evaluate " + square + " " + square + " --region nan,0,400,5", "bad_option");
+  writeText(file("outline.json"), "{\"points\":[[0,0,400],[10,0,400],[0,10,400]]}");
+  const std::string measure = "measure " + square + " --outline " + file("outline.json");
+  expectRefused(measure + " --heel nan,0,0 --toe 0,1,0", "bad_option");
+  expectRefused(measure + " --heel 0,0,400 --toe 0,0,401", "bad_option");
+  EXPECT_EQ(cli("report " + square + " " + file("r.pdf") + " --outline " + file("outline.json") +
+                " --title " + std::string(201, 'x'))
+                .exit_code,
+            2);
+}
+
 TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
   writeSquare(file("square.ply"));
   const Outcome run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +

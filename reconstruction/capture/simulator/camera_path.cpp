@@ -58,6 +58,16 @@ Station stationAt(CameraPath path, double s) {
   return rigStation(s);
 }
 
+/// A nurse turns the leg until the ulcer faces the camera; for the paths that is the same as going
+/// round the foot.
+Station facingTheUlcer(Station station, FootCase foot) {
+  constexpr double kLegTurnedInwards_deg = 64.0;
+  if (foot == FootCase::Lateral) {
+    station.azimuth_deg -= kLegTurnedInwards_deg;
+  }
+  return station;
+}
+
 RigidTransform poseOf(const Station& station) {
   constexpr double kRadian = std::numbers::pi / 180.0;
   const double el = station.elevation_deg * kRadian;
@@ -121,7 +131,8 @@ double frameTime(const SimulatorOptions& options, int index) {
 }
 
 RigidTransform footFromCamera(const SimulatorOptions& options, double time_s) {
-  const RigidTransform pose = poseOf(stationAt(options.path, time_s / kMotionSeconds));
+  const Station station = stationAt(options.path, time_s / kMotionSeconds);
+  const RigidTransform pose = poseOf(facingTheUlcer(station, options.foot));
   if (options.jitter_mm <= 0.0) {
     return pose;
   }
