@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tarsus {
@@ -128,20 +127,6 @@ TEST(BlurMeasure, StaysBetweenZeroAndOne) {
   }
   // Neighbours differ by 255, nine-tap means by at most 255 / 9.
   EXPECT_NEAR(blurMeasure(checker), 1.0 / 9.0, 0.02);
-}
-
-TEST(BlurMeasure, TakesLittleTime) {
-  const ColorImage image = blocks(640, 480);
-  double best_s = 1.0;
-  for (int i = 0; i < 10; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    EXPECT_GT(blurMeasure(image), 0.0);
-    best_s = std::min(
-        best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  RecordProperty("milliseconds", std::to_string(1e3 * best_s));
-  std::printf("blurMeasure at 640x480: %.2f ms\n", 1e3 * best_s);
-  EXPECT_LT(best_s, 0.1);  // 5 ms wanted; sanitizers and a busy machine stay below 100
 }
 
 }  // namespace
