@@ -1,5 +1,8 @@
 #include "reconstruction/base/parallel.h"
 
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
 #include <exception>
 #include <mutex>
 
@@ -8,8 +11,7 @@ namespace tarsus {
 void parallelFor(int count, const std::function<void(int)>& body) {
   std::exception_ptr first_exception;
   std::mutex exception_mutex;
-#pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < count; ++i) {
+  const auto guarded = [&](int i) {
     try {
       body(i);
     } catch (...) {
@@ -18,10 +20,20 @@ void parallelFor(int count, const std::function<void(int)>& body) {
         first_exception = std::current_exception();
       }
     }
-  }
+  };
+  tbb::parallel_for(0, count, guarded, tbb::simple_partitioner());
   if (first_exception) {
     std::rethrow_exception(first_exception);
   }
 }
+
+struct ThreadLimit::Control {
+  tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(threads))}) {}
+ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace tarsus

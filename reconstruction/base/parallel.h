@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 namespace tarsus {
 
@@ -9,5 +10,18 @@ namespace tarsus {
 /// order, so that the bits do not depend on the number of threads.
 /// An exception thrown by body is rethrown here (one of them, if several).
 void parallelFor(int count, const std::function<void(int)>& body);
+
+/// While it lives, parallelFor uses at most so many threads (of the processor's).
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+  ~ThreadLimit();
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
 
 }  // namespace tarsus

@@ -1,7 +1,6 @@
 #include "reconstruction/base/parallel.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <atomic>
 #include <cmath>
@@ -51,7 +50,7 @@ TEST(ParallelFor, MayBeNested) {
 
 TEST(ParallelFor, SumsInSlotsHaveTheSameBitsForAnyNumberOfThreads) {
   const auto sum = [](int threads) {
-    omp_set_num_threads(threads);
+    const ThreadLimit limit(threads);
     std::vector<double> slots(5000);
     parallelFor(5000, [&](int i) { slots[static_cast<std::size_t>(i)] = std::sin(0.1 * i); });
     return std::accumulate(slots.begin(), slots.end(), 0.0);

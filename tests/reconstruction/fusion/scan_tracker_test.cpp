@@ -1,9 +1,9 @@
 #include "reconstruction/fusion/scan_tracker.h"
 
+#include "reconstruction/base/parallel.h"
 #include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 
@@ -190,12 +190,11 @@ TEST(TrackScan, StopsWhenAsked) {
 TEST(TrackScan, SameBitsWithOneThreadAndTwo) {
   const auto angles = arcOf(5, 0.02);
   const auto tracked = [&](int threads) {
-    omp_set_num_threads(threads);
+    const ThreadLimit limit(threads);
     return trackFrames(scanAt(angles, true));
   };
   const auto one = tracked(1);
   const auto two = tracked(2);
-  omp_set_num_threads(omp_get_num_procs());
   ASSERT_TRUE(one && two);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     EXPECT_EQ(one->trajectory[i].scan_from_camera->matrix(),

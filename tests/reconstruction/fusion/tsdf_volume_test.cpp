@@ -1,10 +1,10 @@
 #include "reconstruction/fusion/tsdf_volume.h"
 
+#include "reconstruction/base/parallel.h"
 #include "reconstruction/fusion/surface_cleanup.h"
 #include "tests/reconstruction/fusion/analytic_scene.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <cstring>
@@ -200,7 +200,7 @@ TEST(TsdfVolume, SameBitsWithOneThreadAndTwo) {
   const RgbdCamera camera = smallCamera();
   const AnalyticScene scene = bumpyScene();
   const auto fused = [&](int threads) {
-    omp_set_num_threads(threads);
+    const ThreadLimit limit(threads);
     TsdfVolume volume(withVoxel(2.0));
     for (int i = 0; i < 4; ++i) {
       const RigidTransform pose = arcPose(0.03 * i);
@@ -210,7 +210,6 @@ TEST(TsdfVolume, SameBitsWithOneThreadAndTwo) {
   };
   const ExtractedSurface one = fused(1);
   const ExtractedSurface two = fused(2);
-  omp_set_num_threads(omp_get_num_procs());
   ASSERT_EQ(one.mesh.vertices.size(), two.mesh.vertices.size());
   ASSERT_EQ(one.mesh.faces.size(), two.mesh.faces.size());
   EXPECT_GT(one.mesh.faces.size(), 1000U);

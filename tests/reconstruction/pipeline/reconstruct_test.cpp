@@ -1,6 +1,7 @@
 // The whole way from frames to model, on a simulated foot whose truth is known.
 #include "reconstruction/pipeline/reconstruct.h"
 
+#include "reconstruction/base/parallel.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/capture/trajectory_file.h"
@@ -11,7 +12,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,12 +126,10 @@ TEST_F(ReconstructScan, WithTheBackgroundKeptThereIsMore) {
 
 TEST_F(ReconstructScan, SameScanSameBitsWhateverTheThreads) {
   ScanOptions options;
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
+  std::optional<ThreadLimit> alone(1);
   auto once = reconstructScan(opener(), options, {});
-  omp_set_num_threads(3);
+  alone.reset();
   auto again = reconstructScan(opener(), options, {});
-  omp_set_num_threads(threads);
   ASSERT_TRUE(once && again);
   EXPECT_EQ(once->model.sha256, again->model.sha256);
   EXPECT_EQ(once->scan_sha256, again->scan_sha256);

@@ -1,4 +1,5 @@
 #include "reconstruction/base/atomic_file.h"
+#include "reconstruction/base/parallel.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/simulator/closed_curve.h"
 #include "reconstruction/capture/simulator/simulator.h"
@@ -8,7 +9,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <omp.h>
 
 #include <cstring>
 
@@ -69,13 +69,11 @@ TEST(OpenSimulator, KeepsTheContractOfAFrameSource) {
 }
 
 TEST(OpenSimulator, GivesTheSameBitsForAnyNumberOfThreads) {
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
+  std::optional<ThreadLimit> one_thread(1);
   const auto alone = allFrames(*openSimulator(sharedScene(), shortScan()));
-  omp_set_num_threads(3);
+  one_thread.reset();
   const auto together = allFrames(*openSimulator(sharedScene(), shortScan()));
   const auto scene = buildScene(shortScan());
-  omp_set_num_threads(threads);
   for (std::size_t i = 0; i < alone.size(); ++i) {
     EXPECT_TRUE(sameBits(alone[i], together[i])) << i;
   }
