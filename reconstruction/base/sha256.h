@@ -7,7 +7,7 @@
 
 namespace tarsus {
 
-/// SHA-256 over bytes fed piece by piece (libsodium).
+/// SHA-256 over bytes fed piece by piece (OpenSSL, which uses the processor's SHA instructions).
 class Sha256 {
  public:
   Sha256();

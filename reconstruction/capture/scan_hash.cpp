@@ -1,7 +1,7 @@
 #include "reconstruction/capture/scan_hash.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,11 +32,11 @@ ScanHash::ScanHash(const RgbdCamera& camera) : units_per_mm_(camera.depth_units_
 void ScanHash::add(const RgbdFrame& frame) {
   const std::int64_t time_us = frame.timestamp.count();
   sum_.update(std::as_bytes(std::span(&time_us, 1)));
-  std::vector<std::uint16_t> units;
-  units.reserve(frame.depth.pixels().size());
-  for (const float depth_mm : frame.depth.pixels()) {
-    units.push_back(static_cast<std::uint16_t>(std::lround(depth_mm * units_per_mm_)));
-  }
+  std::vector<std::uint16_t> units(frame.depth.pixels().size());
+  std::ranges::transform(frame.depth.pixels(), units.begin(), [&](float depth_mm) {
+    // Depth is never negative: cutting off half a unit more rounds, and vectorises.
+    return static_cast<std::uint16_t>(static_cast<std::int32_t>(depth_mm * units_per_mm_ + 0.5));
+  });
   sum_.update(std::as_bytes(std::span(units)));
   sum_.update(std::as_bytes(frame.color.pixels()));
 }

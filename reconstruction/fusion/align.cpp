@@ -20,6 +20,10 @@ constexpr double kLever_mm = 100.0;
 /// normals point that way) is above this. Ours.
 constexpr double kFreeDirection = 1e-3;
 constexpr double kLargestStep_mm = 30.0;
+/// Steeper than 66 degrees, a reading says little and errs much.
+constexpr float kLeastCosine = 0.4F;
+constexpr int kRaySteps = 2;
+constexpr float kLargestLastStep_mm = 1.0F;
 
 /// What one pass over the points adds up.
 struct Sums {
@@ -225,6 +229,41 @@ class Aligner {
 
 }  // namespace
 
+std::optional<RayOnSurface> meetSurface(const TsdfVolume& field,
+                                        const Eigen::Isometry3f& scan_from_camera,
+                                        const Eigen::Vector3f& p_camera) {
+  const Eigen::Vector3f measured = scan_from_camera * p_camera;
+  const Eigen::Vector3f ray = scan_from_camera.linear() * p_camera.normalized();
+  RayOnSurface result{.p = measured};
+  SdfSample sample;
+  float step_mm = 0.0F;
+  for (int step = 0; step < kRaySteps; ++step) {
+    if (!field.sample(result.p, sample)) {
+      return std::nullopt;
+    }
+    const float approach = -sample.gradient.dot(ray);
+    if (approach < kLeastCosine) {
+      return std::nullopt;
+    }
+    step_mm = sample.distance_mm / approach;
+    result.p += ray * step_mm;
+  }
+  if (std::abs(step_mm) > kLargestLastStep_mm || !field.sample(result.p, sample)) {
+    return std::nullopt;
+  }
+  const float length = sample.gradient.norm();
+  result.normal = sample.gradient / std::max(length, 1e-6F);
+  result.cosine = -result.normal.dot(ray);
+  result.residual_mm =
+      sample.distance_mm / std::max(length, 0.5F) + result.normal.dot(measured - result.p);
+  return result.cosine < kLeastCosine ? std::nullopt : std::optional(result);
+}
+
+float certaintyAt(float z_mm) {
+  const float noise = (0.15F + 0.0006F * z_mm) / 0.36F;
+  return 1.0F / (noise * noise);
+}
+
 std::vector<AlignmentPoint> alignmentPoints(const DepthPlanes& planes, int stride) {
   const Intrinsics& k = planes.intrinsics;
   std::vector<AlignmentPoint> points;
@@ -235,8 +274,7 @@ std::vector<AlignmentPoint> alignmentPoints(const DepthPlanes& planes, int strid
         continue;
       }
       const float z = planes.depth_mm[i];
-      const float noise = (0.15F + 0.0006F * z) / 0.36F;
-      points.push_back({k.ray(u, v).cast<float>() * z, planes.quality[i] / (noise * noise)});
+      points.push_back({k.ray(u, v).cast<float>() * z, planes.quality[i] * certaintyAt(z)});
     }
   }
   return points;

@@ -113,8 +113,13 @@ struct TsdfVolume::Grid {
   explicit Grid(const TsdfOptions& volume_options)
       : options(volume_options),
         blocks(static_cast<float>(volume_options.voxel_size_mm), volume_options.with_color) {}
+  /// Numbers of the blocks that a frame may concern.
+  [[nodiscard]] std::vector<int> blocksInView(const DepthPlanes& planes,
+                                              const RigidTransform& scan_from_camera);
+
   TsdfOptions options;
   BlockGrid blocks;
+  bool confined = false;                 ///< frames add no blocks
   std::vector<int> last_frame_of_block;  ///< to list each block once per frame
   int frames = 0;
 };

@@ -2,7 +2,8 @@
 
 #include "reconstruction/base/error.h"
 #include "reconstruction/base/job.h"
-#include "reconstruction/capture/frame_source.h"
+#include "reconstruction/capture/scan_archive.h"
+#include "reconstruction/fusion/align.h"
 #include "reconstruction/fusion/tsdf_volume.h"
 
 namespace tarsus {
@@ -19,26 +20,43 @@ struct TrackingOptions {
   double max_depth_ratio = 2.0;  ///< as TsdfOptions
 };
 
-struct TrackingResult {
-  Trajectory trajectory;  ///< one entry for each frame read; first tracked pose = identity
+/// Points of a frame that took part in finding its pose, in its camera's frame.
+using FramePoints = std::vector<AlignmentPoint>;
+
+/// A scan after its first pass.
+struct TrackedScan {
+  Trajectory trajectory;  ///< one entry for each frame read
   int frames_tracked = 0;
-  int frames_lost = 0;
   int relocalisations = 0;
-  double rmse_mm = 0.0;  ///< root mean square of the residuals over all tracked frames
+  double rmse_mm = 0.0;             ///< root mean square of the residuals over all tracked frames
+  TsdfVolume model;                 ///< the field that was tracked on
+  std::vector<FramePoints> points;  ///< per entry of the trajectory
+  ScanArchive archive;              ///< the frames, in the order of the trajectory
 };
 
 /// First stage: follows the camera by Gauss-Newton on the signed distance field,
-/// E = sum V(T v_p)^2, and fuses each tracked frame into it. A lost frame is never fused.
+/// E = sum V(T v_p)^2, and fuses each tracked frame into it. A lost frame is never fused. The
+/// first tracked pose is the identity.
 /// Source: Bylow et al., RSS 2013; the paper's section "Camera Pose Estimation".
 /// @errors ScanEmpty, TrackingLost (fewer than half of the frames), Cancelled, those of the source
-[[nodiscard]] Expected<TrackingResult> trackScan(FrameSource& frames,
-                                                 const TrackingOptions& options,
-                                                 const Job& job);
+[[nodiscard]] Expected<TrackedScan> trackScan(FrameSource& frames,
+                                              const TrackingOptions& options,
+                                              const Job& job);
+
+/// The same where the poses are known (a rig's encoders): by nearest time within half a frame;
+/// frames without one count as lost.
+/// @errors TrajectoryInvalid where no frame has a pose, ScanEmpty, Cancelled, those of the source
+[[nodiscard]] Expected<TrackedScan> placeScan(FrameSource& frames,
+                                              const Trajectory& known,
+                                              const TrackingOptions& options,
+                                              const Job& job);
 
 /// Second stage: fuses all tracked frames anew with a narrow weighting, for sharp edges.
-/// @errors ScanEmpty, Cancelled, those of the source
-[[nodiscard]] Expected<TsdfVolume> fuseScan(FrameSource& frames,
+/// @param near  if there are any points [mm, scan frame], only what lies about them
+/// @errors ScanEmpty where no frame has a pose, Cancelled
+[[nodiscard]] Expected<TsdfVolume> fuseScan(const ScanArchive& frames,
                                             const Trajectory& trajectory,
+                                            std::span<const Eigen::Vector3f> near,
                                             const TsdfOptions& options,
                                             const Job& job);
 

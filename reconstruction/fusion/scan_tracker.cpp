@@ -54,15 +54,6 @@ bool farApart(const RigidTransform& a, const RigidTransform& b) {
          Eigen::AngleAxisd(difference.linear()).angle() > kKeyframeAngle_rad;
 }
 
-/// A frame's points at three densities.
-struct PointPyramid {
-  explicit PointPyramid(const DepthPlanes& planes)
-      : few(alignmentPoints(planes, 8)),
-        some(alignmentPoints(planes, 4)),
-        many(alignmentPoints(planes, 3)) {}
-  std::vector<AlignmentPoint> few, some, many;
-};
-
 }  // namespace
 
 struct ScanTracker::State {
@@ -85,7 +76,7 @@ struct ScanTracker::State {
   bool lost = false;
   int relocalisations = 0;
 
-  [[nodiscard]] AlignmentResult alignFrom(const PointPyramid& points,
+  [[nodiscard]] AlignmentResult alignFrom(const PreparedFrame& points,
                                           const RigidTransform& start) const {
     const double delta = options.weighting.delta_mm;
     AlignmentResult result = alignToField(coarse,
@@ -138,7 +129,7 @@ struct ScanTracker::State {
     return result;
   }
 
-  [[nodiscard]] AlignmentResult track(const PointPyramid& points) const {
+  [[nodiscard]] AlignmentResult track(const PreparedFrame& points) const {
     AlignmentResult best;
     bool first = true;
     for (const RigidTransform& start : starts()) {
@@ -169,8 +160,8 @@ struct ScanTracker::State {
     }
   }
 
-  FramePose follow(const DepthPlanes& planes, FramePose pose) {
-    const AlignmentResult result = track(PointPyramid(planes));
+  FramePose follow(const PreparedFrame& frame, FramePose pose) {
+    const AlignmentResult result = track(frame);
     pose.rmse_mm = result.rmse_mm;
     pose.inlier_fraction = result.inlier_fraction;
     if (result.cost_mm2 < 0.0) {
@@ -183,7 +174,7 @@ struct ScanTracker::State {
     lost = false;
     last_pose = result.scan_from_camera;
     pose.scan_from_camera = result.scan_from_camera;
-    fuse(planes, result.scan_from_camera);
+    fuse(frame.planes, result.scan_from_camera);
     return pose;
   }
 };
@@ -194,34 +185,48 @@ ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
 ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
 ScanTracker::~ScanTracker() = default;
 
+PreparedFrame::PreparedFrame(const RgbdCamera& camera,
+                             const TrackingOptions& options,
+                             const RgbdFrame& frame)
+    : index(frame.index),
+      timestamp(frame.timestamp),
+      planes(fitDepthPlanes(camera.depth,
+                            frame.depth,
+                            {.min_depth_mm = options.min_depth_mm,
+                             .max_depth_mm = options.max_depth_mm,
+                             .max_depth_ratio = options.max_depth_ratio})),
+      few(alignmentPoints(planes, 8)),
+      some(alignmentPoints(planes, 4)),
+      many(alignmentPoints(planes, 3)) {}
+
 FramePose ScanTracker::push(const RgbdFrame& frame) {
-  FramePose pose;
-  pose.frame_index = frame.index;
-  pose.timestamp = frame.timestamp;
-  const TrackingOptions& options = state_->options;
-  const DepthPlanes planes = fitDepthPlanes(state_->camera.depth,
-                                            frame.depth,
-                                            {.min_depth_mm = options.min_depth_mm,
-                                             .max_depth_mm = options.max_depth_mm,
-                                             .max_depth_ratio = options.max_depth_ratio});
+  return push(PreparedFrame(state_->camera, state_->options, frame));
+}
+
+FramePose ScanTracker::push(const PreparedFrame& frame) {
+  FramePose pose{.frame_index = frame.index, .timestamp = frame.timestamp, .scan_from_camera = {}};
   const double share =
-      planes.valid_count / std::max(1.0, static_cast<double>(planes.quality.size()));
+      frame.planes.valid_count / std::max(1.0, static_cast<double>(frame.planes.quality.size()));
   if (share < kLeastValidShare) {
     state_->lost = state_->last_pose.has_value();
     state_->previous_pose.reset();
     return pose;
   }
-  if (!state_->last_pose) {
-    state_->last_pose = RigidTransform::Identity();
-    pose.scan_from_camera = RigidTransform::Identity();
-    pose.inlier_fraction = 1.0;
-    state_->fuse(planes, RigidTransform::Identity());
-    return pose;
-  }
-  return state_->follow(planes, pose);
+  return state_->last_pose ? state_->follow(frame, pose) : place(frame, RigidTransform::Identity());
+}
+
+FramePose ScanTracker::place(const PreparedFrame& frame, const RigidTransform& scan_from_camera) {
+  state_->last_pose = scan_from_camera;
+  state_->fuse(frame.planes, scan_from_camera);
+  return {.frame_index = frame.index,
+          .timestamp = frame.timestamp,
+          .scan_from_camera = scan_from_camera,
+          .inlier_fraction = 1.0};
 }
 
 const TsdfVolume& ScanTracker::model() const { return state_->fine; }
+
+TsdfVolume ScanTracker::takeModel() { return std::move(state_->fine); }
 
 int ScanTracker::relocalisations() const { return state_->relocalisations; }
 

@@ -4,9 +4,11 @@
 #include "reconstruction/fusion/block_grid.h"
 #include "reconstruction/fusion/block_update.h"
 #include "reconstruction/fusion/depth_planes.h"
+#include "reconstruction/fusion/depth_tiles.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tarsus {
 namespace {
@@ -39,6 +41,26 @@ class BandBlocks {
       }
     }
     previous_ = last;
+  }
+  /// Every block that a ball around p reaches into.
+  void touchBall(const Eigen::Vector3f& p_scan, float radius_mm) {
+    const float side_mm = grid_.voxelSize() * static_cast<float>(kBlockSide);
+    const Eigen::Vector3f reach = Eigen::Vector3f::Constant(radius_mm);
+    const Eigen::Vector3i first = ((p_scan - reach) / side_mm).array().floor().cast<int>();
+    const Eigen::Vector3i last = ((p_scan + reach) / side_mm).array().floor().cast<int>();
+    for (int z = first.z(); z <= last.z(); ++z) {
+      for (int y = first.y(); y <= last.y(); ++y) {
+        for (int x = first.x(); x <= last.x(); ++x) {
+          const Eigen::Vector3i at(x, y, z);
+          const Eigen::Vector3f corner = at.cast<float>() * side_mm;
+          const Eigen::Vector3f nearest =
+              p_scan.cwiseMax(corner).cwiseMin(corner + Eigen::Vector3f::Constant(side_mm));
+          if ((nearest - p_scan).squaredNorm() <= radius_mm * radius_mm) {
+            add(at);
+          }
+        }
+      }
+    }
   }
   [[nodiscard]] const std::vector<int>& blocks() const { return blocks_; }
 
@@ -131,14 +153,43 @@ void TsdfVolume::integrate(const RgbdCamera& camera,
   integrate(camera, planes, frame.color, scan_from_camera);
 }
 
+std::vector<int> TsdfVolume::Grid::blocksInView(const DepthPlanes& planes,
+                                                const RigidTransform& scan_from_camera) {
+  if (!confined) {
+    BandBlocks band(blocks, last_frame_of_block, frames);
+    touchBand(band, planes, scan_from_camera, options);
+    return band.blocks();
+  }
+  const DepthTiles tiles(planes, static_cast<float>(options.weighting.delta_mm));
+  const Eigen::Isometry3f camera_from_scan = scan_from_camera.inverse().cast<float>();
+  const float side_mm = blocks.voxelSize() * static_cast<float>(kBlockSide);
+  const float radius_mm = 0.5F * std::numbers::sqrt3_v<float> * side_mm;
+  std::vector<int> in_view;
+  for (int i = 0; i < blocks.blockCount(); ++i) {
+    const Eigen::Vector3f center =
+        (blocks.coordinates(i).cast<float>() + Eigen::Vector3f::Constant(0.5F)) * side_mm;
+    if (tiles.mayConcern(camera_from_scan * center, radius_mm)) {
+      in_view.push_back(i);
+    }
+  }
+  return in_view;
+}
+
+void TsdfVolume::confineTo(std::span<const Eigen::Vector3f> points, double reach_mm) {
+  BandBlocks band(grid_->blocks, grid_->last_frame_of_block, -2);
+  for (const Eigen::Vector3f& p : points) {
+    band.touchBall(p, static_cast<float>(reach_mm));
+  }
+  grid_->confined = true;
+}
+
 void TsdfVolume::integrate(const RgbdCamera& camera,
                            const DepthPlanes& planes,
                            const ColorImage& color,
                            const RigidTransform& scan_from_camera) {
   BlockGrid& grid = grid_->blocks;
-  BandBlocks band(grid, grid_->last_frame_of_block, grid_->frames++);
-  touchBand(band, planes, scan_from_camera, grid_->options);
-  const std::vector<int>& blocks = band.blocks();
+  const std::vector<int> blocks = grid_->blocksInView(planes, scan_from_camera);
+  ++grid_->frames;
   const bool with_color = grid.hasColor() && color.width() == camera.color.width &&
                           color.height() == camera.color.height && color.width() > 0;
   const BlockUpdate update(

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace tarsus {
@@ -69,6 +70,9 @@ class TsdfVolume {
   ~TsdfVolume();
 
   [[nodiscard]] const TsdfOptions& options() const;
+  /// From now on the volume is what lies within reach of these points [mm, scan frame]: no block
+  /// is added by frames any more, and what they show elsewhere is ignored.
+  void confineTo(std::span<const Eigen::Vector3f> points, double reach_mm);
   /// Fuses one frame; colour only where the frame has it.
   void integrate(const RgbdCamera& camera,
                  const RgbdFrame& frame,

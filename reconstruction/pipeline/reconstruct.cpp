@@ -1,9 +1,11 @@
 #include "reconstruction/pipeline/reconstruct.h"
 
+#include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_cleanup.h"
+#include "reconstruction/fusion/surface_refinement.h"
 #include "reconstruction/pipeline/fitness.h"
+#include "reconstruction/pipeline/foot_region.h"
 #include "reconstruction/pipeline/hashing_source.h"
-#include "reconstruction/pipeline/known_poses.h"
 #include "reconstruction/pipeline/stage_clock.h"
 
 #include <algorithm>
@@ -11,77 +13,8 @@
 namespace tarsus {
 namespace {
 
-/// First stage: where the camera was at each frame.
-Expected<void> findPoses(const ScanOpener& open,
-                         const ScanOptions& options,
-                         const Job& job,
-                         Reconstruction& result) {
-  auto frames = open({.color = false});
-  if (!frames) {
-    return tl::unexpected(frames.error());
-  }
-  if (options.trajectory) {
-    auto matched = matchKnownPoses(**frames, *options.trajectory, job);
-    if (!matched) {
-      return tl::unexpected(matched.error());
-    }
-    result.trajectory = std::move(*matched);
-  } else {
-    auto tracked = trackScan(**frames, options.tracking, job);
-    if (!tracked) {
-      return tl::unexpected(tracked.error());
-    }
-    result.trajectory = std::move(tracked->trajectory);
-    result.relocalisations = tracked->relocalisations;
-    result.tracking_rmse_mm = tracked->rmse_mm;
-  }
-  result.camera = (*frames)->camera();
-  result.frames_total = (*frames)->frameCount().value_or(0);
-  result.frames_tracked = static_cast<int>(std::ranges::count_if(
-      result.trajectory, [](const FramePose& p) { return p.scan_from_camera.has_value(); }));
-  return {};
-}
-
-/// Second stage: all frames anew into a fine volume, and its surface. Names the scan on the way.
-Expected<ExtractedSurface> fuseSurface(const ScanOpener& open,
-                                       const ScanOptions& options,
-                                       const Job& job,
-                                       Reconstruction& result) {
-  auto frames = open({.color = true});
-  if (!frames) {
-    return tl::unexpected(frames.error());
-  }
-  HashingSource hashed(std::move(*frames));
-  auto volume = fuseScan(hashed, result.trajectory, options.surface, job);
-  if (!volume) {
-    return tl::unexpected(volume.error());
-  }
-  result.scan_sha256 = hashed.hex();
-  std::ranges::copy(hashed.warnings(), std::back_inserter(result.warnings));
-  return volume->extractSurface(options.min_weight);
-}
-
-/// @errors SurfaceEmpty
-Expected<ExtractedSurface> keepFoot(ExtractedSurface surface,
-                                    const ScanOptions& options,
-                                    Reconstruction& result) {
-  if (surface.mesh.faces.empty()) {
-    return fail(ErrorCode::SurfaceEmpty);
-  }
-  if (!options.keep_background) {
-    ForegroundResult foreground = removeBackground(surface, result.trajectory, options.background);
-    if (!foreground.told_apart) {
-      result.warnings.push_back(
-          {"background_kept", "Foot and background could not be told apart; nothing was cut."});
-    }
-    surface = std::move(foreground.surface);
-  }
-  // The foot is one surface; with the background kept, the scene has as many as it likes.
-  const ComponentFilter filter{.min_share_of_largest = options.keep_background ? 0.0 : 0.02};
-  surface = removeSmallComponents(surface, filter);
-  result.holes = countHoles(surface.mesh);
-  return surface;
-}
+/// The foot is one surface; with the background kept, the scene has as many as it likes.
+constexpr double kLeastShareOfFoot = 0.02;
 
 TexturedMesh withFusedColors(ExtractedSurface surface) {
   TexturedMesh model;
@@ -93,87 +26,217 @@ TexturedMesh withFusedColors(ExtractedSurface surface) {
   return withHash(std::move(model));
 }
 
-Expected<void> chooseViews(const ScanOpener& open,
-                           const ScanOptions& options,
-                           const Job& job,
-                           Reconstruction& result) {
-  auto frames = open({.color = true});
-  if (!frames) {
-    return tl::unexpected(frames.error());
+void move(const RigidTransform& motion, ExtractedSurface& surface) {
+  const Eigen::Isometry3f m = motion.cast<float>();
+  for (Eigen::Vector3f& p : surface.mesh.vertices) {
+    p = m * p;
   }
-  auto keyframes = chooseKeyframes(**frames, result.trajectory, options.keyframes, job);
-  if (!keyframes) {
-    return tl::unexpected(keyframes.error());
+  for (Eigen::Vector3f& n : surface.mesh.normals) {
+    n = m.linear() * n;
   }
-  result.keyframes = std::move(*keyframes);
-  return {};
 }
 
-/// Colours the surface; without texture, or where no picture can serve, it keeps the fused colours.
-Expected<void> color(ExtractedSurface surface,
-                     const ScanOptions& options,
-                     const Job& job,
-                     Reconstruction& result) {
-  if (result.keyframes.empty()) {
-    result.model = withFusedColors(std::move(surface));
+/// The stages, each taking up what the one before it left.
+class ScanReconstruction {
+ public:
+  ScanReconstruction(const ScanOpener& open, const ScanOptions& options, const Job& job)
+      : open_(open), options_(options), job_(job) {}
+
+  Expected<Reconstruction> run() {
+    return followCamera()
+        .and_then([&] { return findFoot(); })
+        .and_then([&] { return refineOnCoarseField(); })
+        .and_then([&] { return fuseSurface(); })
+        .and_then([&] { return chooseViews(); })
+        .and_then([&] { return color(); })
+        .map([&] { return finished(); });
+  }
+
+ private:
+  [[nodiscard]] bool mayMovePoses() const {
+    return !options_.trajectory || options_.refine_trajectory;
+  }
+
+  /// First pass: where the camera was at each frame. Names the scan on the way.
+  Expected<void> followCamera() {
+    auto frames = open_({.color = true});
+    if (!frames) {
+      return tl::unexpected(frames.error());
+    }
+    HashingSource hashed(std::move(*frames));
+    auto scan = options_.trajectory
+                    ? placeScan(hashed, *options_.trajectory, options_.tracking, job_)
+                    : trackScan(hashed, options_.tracking, job_);
+    if (!scan) {
+      return tl::unexpected(scan.error());
+    }
+    scan_ = std::move(*scan);
+    result_.scan_sha256 = hashed.hex();
+    std::ranges::copy(hashed.warnings(), std::back_inserter(result_.warnings));
+    result_.camera = hashed.camera();
+    result_.frames_total = hashed.frameCount().value_or(scan_->archive.frameCount());
+    result_.frames_tracked = scan_->frames_tracked;
+    result_.relocalisations = scan_->relocalisations;
+    if (!options_.trajectory) {
+      result_.tracking_rmse_mm = scan_->rmse_mm;
+    }
+    clock_.end(options_.trajectory ? "match" : "track", result_.frames_total);
     return {};
   }
-  auto textured = colorSurface(surface, result.camera, result.keyframes, options.color, job);
-  if (!textured) {
-    return tl::unexpected(textured.error());
-  }
-  const TexturedMesh plain = withFusedColors(std::move(surface));
-  if (!plain.colors.empty()) {
-    result.photometric_rmse_before =
-        photometricRmse(plain, result.camera, result.keyframes, options.color);
-  }
-  result.photometric_rmse_after =
-      photometricRmse(*textured, result.camera, result.keyframes, options.color);
-  result.model = std::move(*textured);
-  return {};
-}
 
-void finish(Reconstruction& result) {
-  const auto unseen = std::ranges::count(result.model.unseen, std::uint8_t{1});
-  result.unseen_fraction = static_cast<double>(unseen) / static_cast<double>(std::max<std::size_t>(
-                                                             1, result.model.unseen.size()));
-  result.refusal_reasons = refusalReasons(result);
-}
+  Expected<void> findFoot() {
+    if (!options_.keep_background) {
+      const ExtractedSurface scene = scan_->model.extractSurface(options_.min_weight);
+      ForegroundResult foreground = removeBackground(scene, scan_->trajectory, options_.background);
+      if (foreground.told_apart) {
+        const auto foot =
+            removeSmallComponents(foreground.surface, {.min_share_of_largest = kLeastShareOfFoot});
+        region_.emplace(scene.mesh, foot.mesh);
+      } else {
+        result_.warnings.push_back(
+            {"background_kept", "Foot and background could not be told apart; nothing was cut."});
+      }
+    }
+    clock_.end("find foot", 0);
+    return {};
+  }
+
+  Expected<void> refineOnCoarseField() {
+    if (!mayMovePoses()) {
+      return {};
+    }
+    const auto moved = refineOn(scan_->model, options_.refinement);
+    if (!moved) {
+      return tl::unexpected(moved.error());
+    }
+    if (region_) {
+      region_->move(*moved);
+    }
+    clock_.end("refine", result_.frames_total);
+    return {};
+  }
+
+  /// Moves the poses until the frames agree on the field.
+  /// @return refined_from_field
+  Expected<RigidTransform> refineOn(const TsdfVolume& field, const PoseRefinementOptions& options) {
+    auto refined = refinePoses(field, scan_->points, scan_->trajectory, options, job_);
+    if (!refined) {
+      return tl::unexpected(refined.error());
+    }
+    scan_->trajectory = std::move(refined->trajectory);
+    return refined->refined_from_field;
+  }
+
+  /// Second stage: all frames anew into a fine volume, its surface, and that where the frames see
+  /// it.
+  Expected<void> fuseSurface() {
+    TsdfOptions volume_options = options_.surface;
+    volume_options.with_color = false;  // the vertices get theirs straight from the frames
+    const auto near = region_ ? std::span(region_->points()) : std::span<const Eigen::Vector3f>();
+    auto volume = fuseScan(scan_->archive, scan_->trajectory, near, volume_options, job_);
+    if (!volume) {
+      return tl::unexpected(volume.error());
+    }
+    clock_.end("fuse", result_.frames_total);
+    surface_ = volume->extractSurface(options_.min_weight);
+    if (surface_.mesh.faces.empty()) {
+      return fail(ErrorCode::SurfaceEmpty);
+    }
+    if (region_) {
+      surface_ = region_->cut(surface_);
+    }
+    surface_ = removeSmallComponents(
+        surface_, {.min_share_of_largest = options_.keep_background ? 0.0 : kLeastShareOfFoot});
+    if (mayMovePoses()) {
+      PoseRefinementOptions last = options_.refinement;
+      last.sweeps = options_.refinement_sweeps_on_surface;
+      last.kernel_mm = last.least_kernel_mm;
+      const auto moved = refineOn(*volume, last);
+      if (!moved) {
+        return tl::unexpected(moved.error());
+      }
+      move(*moved, surface_);
+    }
+    clock_.end("surface", 0);
+    return placeVertices();
+  }
+
+  Expected<void> placeVertices() {
+    auto refined = refineSurface(
+        std::move(surface_), scan_->archive, scan_->trajectory, options_.surface_refinement, job_);
+    if (!refined) {
+      return tl::unexpected(refined.error());
+    }
+    surface_ = std::move(*refined);
+    result_.holes = countHoles(surface_.mesh);
+    result_.trajectory = std::move(scan_->trajectory);
+    scan_.reset();
+    clock_.end("place vertices", result_.frames_total);
+    return {};
+  }
+
+  Expected<void> chooseViews() {
+    if (!options_.texture) {
+      return {};
+    }
+    auto frames = open_({.color = true});
+    if (!frames) {
+      return tl::unexpected(frames.error());
+    }
+    auto keyframes = chooseKeyframes(**frames, result_.trajectory, options_.keyframes, job_);
+    if (!keyframes) {
+      return tl::unexpected(keyframes.error());
+    }
+    result_.keyframes = std::move(*keyframes);
+    clock_.end("keyframes", result_.frames_total);
+    return {};
+  }
+
+  /// Without texture, or where no picture can serve, the surface keeps its fused colours.
+  Expected<void> color() {
+    if (result_.keyframes.empty()) {
+      result_.model = withFusedColors(std::move(surface_));
+      return {};
+    }
+    auto textured = colorSurface(surface_, result_.camera, result_.keyframes, options_.color, job_);
+    if (!textured) {
+      return tl::unexpected(textured.error());
+    }
+    const TexturedMesh plain = withFusedColors(std::move(surface_));
+    result_.photometric_rmse_before =
+        photometricRmse(plain, result_.camera, result_.keyframes, options_.color);
+    result_.photometric_rmse_after =
+        photometricRmse(*textured, result_.camera, result_.keyframes, options_.color);
+    result_.model = std::move(*textured);
+    clock_.end("color", 0);
+    return {};
+  }
+
+  Reconstruction finished() {
+    const auto unseen = std::ranges::count(result_.model.unseen, std::uint8_t{1});
+    const auto vertices = std::max<std::size_t>(1, result_.model.unseen.size());
+    result_.unseen_fraction = static_cast<double>(unseen) / static_cast<double>(vertices);
+    result_.refusal_reasons = refusalReasons(result_);
+    result_.stages = clock_.stages();
+    return std::move(result_);
+  }
+
+  const ScanOpener& open_;
+  const ScanOptions& options_;
+  const Job& job_;
+  StageClock clock_;
+  Reconstruction result_;
+  std::optional<TrackedScan> scan_;
+  std::optional<FootRegion> region_;
+  ExtractedSurface surface_;
+};
 
 }  // namespace
 
 Expected<Reconstruction> reconstructScan(const ScanOpener& open,
                                          const ScanOptions& options,
                                          const Job& job) {
-  Reconstruction result;
-  StageClock clock;
-  if (auto found = findPoses(open, options, job, result); !found) {
-    return tl::unexpected(found.error());
-  }
-  clock.end(options.trajectory ? "match" : "track", result.frames_total);
-  auto fused = fuseSurface(open, options, job, result);
-  if (!fused) {
-    return tl::unexpected(fused.error());
-  }
-  clock.end("fuse", result.frames_total);
-  auto foot = keepFoot(std::move(*fused), options, result);
-  if (!foot) {
-    return tl::unexpected(foot.error());
-  }
-  clock.end("surface", 0);
-  if (options.texture) {
-    if (auto chosen = chooseViews(open, options, job, result); !chosen) {
-      return tl::unexpected(chosen.error());
-    }
-    clock.end("keyframes", result.frames_total);
-  }
-  if (auto colored = color(std::move(*foot), options, job, result); !colored) {
-    return tl::unexpected(colored.error());
-  }
-  clock.end("color", 0);
-  finish(result);
-  result.stages = clock.stages();
-  return result;
+  return ScanReconstruction(open, options, job).run();
 }
 
 }  // namespace tarsus

@@ -3,7 +3,8 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/base/job.h"
 #include "reconstruction/capture/frame_source.h"
-#include "reconstruction/fusion/fusion.h"
+#include "reconstruction/fusion/pose_refinement.h"
+#include "reconstruction/fusion/surface_refinement.h"
 #include "reconstruction/pipeline/background.h"
 #include "reconstruction/scene/mesh.h"
 #include "reconstruction/texture/color_map.h"
@@ -23,11 +24,15 @@ struct ScanOptions {
   bool keep_background = false;
   float min_weight = 3.0F;  ///< of all 8 corners of a cell that gives surface (prototype: 3)
   TrackingOptions tracking;
+  PoseRefinementOptions refinement;
+  int refinement_sweeps_on_surface = 2;  ///< after the second stage, on its finer field
   TsdfOptions surface;
+  SurfaceRefinementOptions surface_refinement;
   BackgroundOptions background;
   KeyframeOptions keyframes;
   ColorMapOptions color;
   std::optional<Trajectory> trajectory;  ///< known poses (a rig's encoders): no tracking
+  bool refine_trajectory = false;        ///< known poses are only where refinement starts
 };
 
 struct StageTime {

@@ -3,8 +3,9 @@
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
-#include "reconstruction/fusion/fusion.h"
+#include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_cleanup.h"
+#include "reconstruction/fusion/surface_refinement.h"
 #include "reconstruction/scene/mesh_distance.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/mesh_picture.h"
@@ -99,14 +100,14 @@ void savePictures(const Scan& scan,
   orExit(writePly(scan.pictures / (name + ".ply"), model));
 }
 
-ExtractedSurface fuseAndExtract(const Scan& scan, const Trajectory& trajectory, float min_weight) {
+ExtractedSurface fuseAndExtract(const Scan& scan, const TrackedScan& tracked, float min_weight) {
   TsdfOptions options;
   options.voxel_size_mm = scan.voxel_size_mm;
-  const auto frames = scan.open(true);
+  options.with_color = false;
   const StopWatch fusing;
-  const TsdfVolume volume = orExit(fuseScan(*frames, trajectory, options, {}));
+  const TsdfVolume volume = orExit(fuseScan(tracked.archive, tracked.trajectory, {}, options, {}));
   std::printf(
-      "fusion, reading included    %8.1f s  (processor %.1f s)\n", fusing.wall_s(), fusing.cpu_s());
+      "fusion                      %8.1f s  (processor %.1f s)\n", fusing.wall_s(), fusing.cpu_s());
   std::printf("volume                      %8zu MB, %d blocks of 8^3 voxels of %.2f mm\n",
               volume.memoryBytes() >> 20U,
               volume.blockCount(),
@@ -114,6 +115,7 @@ ExtractedSurface fuseAndExtract(const Scan& scan, const Trajectory& trajectory, 
   const StopWatch extracting;
   ExtractedSurface surface =
       removeSmallComponents(volume.extractSurface(min_weight), {.min_faces = 500});
+  surface = orExit(refineSurface(std::move(surface), tracked.archive, tracked.trajectory, {}, {}));
   std::printf(
       "surface                     %8.1f s  (processor %.1f s), %zu vertices, %zu faces, %d "
       "holes\n",
@@ -125,11 +127,19 @@ ExtractedSurface fuseAndExtract(const Scan& scan, const Trajectory& trajectory, 
   return surface;
 }
 
-TrackingResult track(const Scan& scan) {
-  const auto frames = scan.open(false);
+void refine(TrackedScan& tracked) {
   const StopWatch watch;
-  TrackingResult result = orExit(trackScan(*frames, {}, {}));
-  const int count = result.frames_tracked + result.frames_lost;
+  tracked.trajectory =
+      orExit(refinePoses(tracked.model, tracked.points, tracked.trajectory, {}, {})).trajectory;
+  std::printf(
+      "refinement of all poses     %8.1f s  (processor %.1f s)\n", watch.wall_s(), watch.cpu_s());
+}
+
+TrackedScan track(const Scan& scan) {
+  const auto frames = scan.open(true);
+  const StopWatch watch;
+  TrackedScan result = orExit(trackScan(*frames, {}, {}));
+  const int count = static_cast<int>(result.trajectory.size());
   std::printf(
       "tracked                     %8d of %d frames, %d relocalisations, residual %.2f mm\n",
       result.frames_tracked,
@@ -144,10 +154,12 @@ TrackingResult track(const Scan& scan) {
 }
 
 void benchTabletop(const Scan& scan) {
-  const TrackingResult tracked = track(scan);
+  TrackedScan tracked = track(scan);
   printLostFrames(tracked.trajectory);
   printTrajectoryError(tracked.trajectory, scan.reference());
-  const ExtractedSurface surface = fuseAndExtract(scan, tracked.trajectory, 3.0F);
+  refine(tracked);
+  printTrajectoryError(tracked.trajectory, scan.reference());
+  const ExtractedSurface surface = fuseAndExtract(scan, tracked, 3.0F);
   printFramesToModel(framesToModel(scan, tracked.trajectory, surface.mesh));
   const std::array views{Eigen::Vector3d(0, -0.4, -1), Eigen::Vector3d(0.8, -0.6, -1)};
   savePictures(scan, surface, "tabletop", views);
@@ -155,7 +167,9 @@ void benchTabletop(const Scan& scan) {
 
 void benchBust(const Scan& scan) {
   const Trajectory poses = scan.reference();
-  const ExtractedSurface surface = fuseAndExtract(scan, poses, 2.0F);
+  const auto frames = scan.open(true);
+  const TrackedScan placed = orExit(placeScan(*frames, poses, {}, {}));
+  const ExtractedSurface surface = fuseAndExtract(scan, placed, 2.0F);
   printFramesToModel(framesToModel(scan, poses, surface.mesh));
   const std::array views{Eigen::Vector3d(0, 0, -1),
                          Eigen::Vector3d(1, 0, 0),

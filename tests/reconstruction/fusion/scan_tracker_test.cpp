@@ -31,9 +31,17 @@ std::vector<double> arcOf(int count, double step_rad) {
   return angles;
 }
 
-Expected<TrackingResult> trackFrames(std::vector<RgbdFrame> frames) {
+Expected<TrackedScan> trackFrames(std::vector<RgbdFrame> frames) {
   FrameList source(smallCamera(), std::move(frames));
   return trackScan(source, {}, {});
+}
+
+ScanArchive archiveOf(const std::vector<RgbdFrame>& frames) {
+  ScanArchive archive(smallCamera(), static_cast<int>(frames.size()));
+  for (const RgbdFrame& frame : frames) {
+    archive.add(frame);
+  }
+  return archive;
 }
 
 double farthestCamera(const Trajectory& trajectory, const std::vector<double>& angles) {
@@ -53,7 +61,7 @@ TEST(TrackScan, FollowsAnExactScan) {
   const auto result = trackFrames(scanAt(angles, false));
   ASSERT_TRUE(result);
   EXPECT_EQ(result->frames_tracked, 15);
-  EXPECT_EQ(result->frames_lost, 0);
+  EXPECT_EQ(static_cast<int>(result->trajectory.size()) - result->frames_tracked, 0);
   EXPECT_EQ(result->relocalisations, 0);
   EXPECT_EQ(result->trajectory.front().scan_from_camera->matrix(), Eigen::Matrix4d::Identity());
   // 2 mm voxels round off the creases between bumps and wall.
@@ -91,7 +99,7 @@ TEST(TrackScan, BlackFramesAreLostAndTheScanGoesOn) {
   }
   const auto result = trackFrames(std::move(frames));
   ASSERT_TRUE(result);
-  EXPECT_EQ(result->frames_lost, 3);
+  EXPECT_EQ(static_cast<int>(result->trajectory.size()) - result->frames_tracked, 3);
   EXPECT_EQ(result->relocalisations, 1);
   for (int i = 4; i < 7; ++i) {
     EXPECT_FALSE(result->trajectory[static_cast<std::size_t>(i)].scan_from_camera);
@@ -216,10 +224,9 @@ TEST(FuseScan, FusesOnlyFramesWithAPose) {
   }
   auto frames = scanAt(angles, false);
   frames[3] = frameOf(scanAt({1.0}, false).front().depth, 3);  // must not be looked at
-  FrameList source(smallCamera(), std::move(frames));
   TsdfOptions options;
   options.with_color = false;
-  const auto volume = fuseScan(source, trajectory, options, {});
+  const auto volume = fuseScan(archiveOf(frames), trajectory, {}, options, {});
   ASSERT_TRUE(volume);
   const AnalyticScene scene = bumpyScene();
   double squares = 0.0;
@@ -232,8 +239,7 @@ TEST(FuseScan, FusesOnlyFramesWithAPose) {
 }
 
 TEST(FuseScan, NoPoseForAnyFrameIsRefused) {
-  FrameList source(smallCamera(), scanAt({0.0}, false));
-  const auto volume = fuseScan(source, {}, {}, {});
+  const auto volume = fuseScan(archiveOf(scanAt({0.0}, false)), Trajectory(1), {}, {}, {});
   ASSERT_FALSE(volume);
   EXPECT_EQ(volume.error().code, ErrorCode::ScanEmpty);
 }

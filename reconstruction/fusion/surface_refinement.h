@@ -1,0 +1,30 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+#include "reconstruction/capture/scan_archive.h"
+#include "reconstruction/fusion/tsdf_volume.h"
+
+namespace tarsus {
+
+struct SurfaceRefinementOptions {
+  int sweeps = 2;
+  double kernel_mm = 2.5;  ///< Tukey's, of the first sweep; halved with each
+  double max_view_angle_deg = 72.0;
+  double prior_observations = 2.0;  ///< the volume's own opinion counts as so many frames
+};
+
+/// Puts each vertex, along its normal, to where all frames that see it measured the surface.
+/// A voxel averages over a band and over what oblique rays extrapolate, so that the volume's
+/// surface is fat on convex skin, rounded at rims and shallow in craters; here each frame is read
+/// where its ray meets the vertex, and nothing is averaged but the frames. Also gives each vertex
+/// its standard error (over at most 25 independent frames), its count of observations and, where
+/// frames hold colour, their mean colour weighted by cos^2 of the incidence. Ours.
+/// @errors Cancelled
+[[nodiscard]] Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
+                                                       const ScanArchive& frames,
+                                                       const Trajectory& trajectory,
+                                                       const SurfaceRefinementOptions& options,
+                                                       const Job& job);
+
+}  // namespace tarsus
