@@ -3,10 +3,41 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <string>
 
 namespace tarsus {
+namespace {
+
+/// For `simulate` alone: the demonstration shows a scan as it should be.
+void addFaultOption(CLI::App& sub, SimulatorOptions& options) {
+  constexpr std::array kFaults{ScanFault::None,
+                               ScanFault::Black,
+                               ScanFault::Jump,
+                               ScanFault::Holes,
+                               ScanFault::Dropped,
+                               ScanFault::Mirrored,
+                               ScanFault::Rest,
+                               ScanFault::Blocked,
+                               ScanFault::Unit};
+  std::map<std::string, ScanFault> faults;
+  for (const ScanFault fault : kFaults) {
+    faults.emplace(nameOf(fault), fault);
+  }
+  sub.add_option("--fault",
+                 options.fault,
+                 "What goes wrong: none; black (15 empty frames), jump (3 steps of 20 mm aside), "
+                 "holes (30 % of the depth missing), dropped (every second frame missing), "
+                 "mirrored (colour, second half), rest (no motion), blocked (a hand before the "
+                 "camera for 1 s) or unit (0.125 mm called 1 mm)")
+      ->transform(CLI::CheckedTransformer(faults).description(""))
+      ->type_name("NAME");
+}
+
+}  // namespace
 
 void addSimulationOptions(CLI::App& sub, SimulatorOptions& options) {
   const std::map<std::string, FootCase> feet{{"forefoot", FootCase::Forefoot},
@@ -50,6 +81,7 @@ void addSimulate(CLI::App& app, Command& command) {
       app, command, "simulate", "Make the scan of a computer-made foot with ulcers of known size");
   sub->add_option("OUT", arguments->out, "Scan folder to write, with truth/ in it")->required();
   addSimulationOptions(*sub, arguments->options);
+  addFaultOption(*sub, arguments->options);
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) -> Expected<nlohmann::json> {
       if (auto done = simulateScan(arguments->out, arguments->options, job); !done) {
@@ -61,7 +93,8 @@ void addSimulate(CLI::App& app, Command& command) {
       }
       return nlohmann::json{{"scan", arguments->out.string()},
                             {"frames", arguments->options.frames},
-                            {"seed", arguments->options.seed}};
+                            {"seed", arguments->options.seed},
+                            {"fault", nameOf(arguments->options.fault)}};
     };
   });
 }

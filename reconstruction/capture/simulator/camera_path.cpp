@@ -119,7 +119,7 @@ RgbdCamera simulatedCamera(const SimulatorOptions& options) {
             .toRotationMatrix();
     camera.color_from_depth.translation() = Vector3d(25.3, 0.4, -1.1);
   }
-  camera.depth_units_per_m = 8000.0;
+  camera.depth_units_per_m = options.fault == ScanFault::Unit ? 1000.0 : 8000.0;
   camera.frames_per_s = options.frames / kMotionSeconds;
   camera.model = "Tarsus simulator";
   camera.serial = "simulated";

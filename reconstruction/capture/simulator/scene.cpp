@@ -1,4 +1,5 @@
 #include "reconstruction/capture/simulator/camera_path.h"
+#include "reconstruction/capture/simulator/scan_fault.h"
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/capture/simulator/skin_color.h"
 #include "reconstruction/capture/simulator/surroundings.h"
@@ -58,14 +59,34 @@ void move(WoundTruth& truth, const RigidTransform& scan_from_foot) {
   }
 }
 
+/// How far the path has been pushed aside by frame `index`, in the scan frame [mm].
+Vector3d pushedAside(const SimulatorOptions& options,
+                     const RigidTransform& scan_from_foot,
+                     int index) {
+  Vector3d shift = Vector3d::Zero();
+  if (options.fault != ScanFault::Jump) {
+    return shift;
+  }
+  for (const int jump : jumpFrames(options.frames)) {
+    if (index >= jump) {
+      const RigidTransform scan_from_camera =
+          scan_from_foot * footFromCamera(options, frameTime(options, jump));
+      shift += kJumpMm * scan_from_camera.linear().col(0);
+    }
+  }
+  return shift;
+}
+
 Trajectory truePoses(const SimulatorOptions& options, const RigidTransform& scan_from_foot) {
   Trajectory trajectory;
   for (int i = 0; i < options.frames; ++i) {
     const double time_s = frameTime(options, i);
     FramePose pose{.frame_index = i, .timestamp = toMicroseconds(time_s)};
-    pose.scan_from_camera = i == 0
-                                ? RigidTransform::Identity()
-                                : RigidTransform(scan_from_foot * footFromCamera(options, time_s));
+    pose.scan_from_camera = RigidTransform::Identity();
+    if (i > 0 && options.fault != ScanFault::Rest) {
+      pose.scan_from_camera = scan_from_foot * footFromCamera(options, time_s);
+      pose.scan_from_camera->pretranslate(pushedAside(options, scan_from_foot, i));
+    }
     pose.inlier_fraction = 1.0;
     trajectory.push_back(pose);
   }

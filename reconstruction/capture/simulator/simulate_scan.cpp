@@ -1,5 +1,6 @@
 #include "reconstruction/base/parallel.h"
 #include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/simulator/scan_fault.h"
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/capture/simulator/truth_file.h"
 
@@ -20,6 +21,17 @@ constexpr std::array<std::pair<CameraPath, std::string_view>, 3> kPaths = {
     {{CameraPath::Rig, "rig"}, {CameraPath::Loop, "loop"}, {CameraPath::Quick, "quick"}}};
 constexpr std::array<std::pair<CameraLayout, std::string_view>, 2> kLayouts = {
     {{CameraLayout::Aligned, "aligned"}, {CameraLayout::Offset, "offset"}}};
+
+constexpr std::array<std::pair<ScanFault, std::string_view>, 9> kFaults = {
+    {{ScanFault::None, "none"},
+     {ScanFault::Black, "black"},
+     {ScanFault::Jump, "jump"},
+     {ScanFault::Holes, "holes"},
+     {ScanFault::Dropped, "dropped"},
+     {ScanFault::Mirrored, "mirrored"},
+     {ScanFault::Rest, "rest"},
+     {ScanFault::Blocked, "blocked"},
+     {ScanFault::Unit, "unit"}}};
 
 template <typename Table, typename Value>
 std::string_view nameIn(const Table& table, Value value) {
@@ -86,16 +98,33 @@ Expected<void> writeFrames(ScanFolderWriter& writer, FrameSource& source, const 
   }
 }
 
+/// True poses of the frames that the scan holds.
+Trajectory posesOf(const Trajectory& all, ScanFault fault) {
+  if (fault != ScanFault::Dropped) {
+    return all;
+  }
+  Trajectory kept;
+  for (const FramePose& pose : all) {
+    if (!strikes(fault, pose.frame_index, static_cast<int>(all.size()))) {
+      kept.push_back(pose);
+      kept.back().frame_index = static_cast<int>(kept.size()) - 1;
+    }
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::string_view nameOf(FootCase foot) { return nameIn(kFeet, foot); }
 std::string_view nameOf(CameraPath path) { return nameIn(kPaths, path); }
 std::string_view nameOf(CameraLayout layout) { return nameIn(kLayouts, layout); }
+std::string_view nameOf(ScanFault fault) { return nameIn(kFaults, fault); }
 std::optional<FootCase> footCaseNamed(std::string_view name) { return valueIn(kFeet, name); }
 std::optional<CameraPath> cameraPathNamed(std::string_view name) { return valueIn(kPaths, name); }
 std::optional<CameraLayout> cameraLayoutNamed(std::string_view name) {
   return valueIn(kLayouts, name);
 }
+std::optional<ScanFault> scanFaultNamed(std::string_view name) { return valueIn(kFaults, name); }
 
 Expected<void> simulateScan(const std::filesystem::path& folder,
                             const SimulatorOptions& options,
@@ -123,7 +152,7 @@ Expected<void> writeSimulatedScan(const std::filesystem::path& folder,
   if (auto ok = writeFrames(*writer, *source, job); !ok) {
     return ok;
   }
-  return writer->finish(scene->trajectory);
+  return writer->finish(posesOf(scene->trajectory, options.fault));
 }
 
 Expected<std::string> simulatedWoundTable(const std::filesystem::path& mesh) {

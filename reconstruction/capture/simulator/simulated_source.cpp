@@ -1,6 +1,7 @@
 #include "reconstruction/base/require.h"
 #include "reconstruction/capture/simulator/camera_path.h"
 #include "reconstruction/capture/simulator/renderer.h"
+#include "reconstruction/capture/simulator/scan_fault.h"
 #include "reconstruction/capture/simulator/sensor_noise.h"
 #include "reconstruction/capture/simulator/simulator.h"
 
@@ -21,35 +22,71 @@ class SimulatedSource final : public FrameSource {
 
   [[nodiscard]] const RgbdCamera& camera() const override { return camera_; }
   [[nodiscard]] std::optional<int> frameCount() const override {
-    return static_cast<int>(scene_->trajectory.size());
+    return options_.fault == ScanFault::Dropped ? (poses() + 1) / 2 : poses();
   }
   [[nodiscard]] const Warnings& warnings() const override { return warnings_; }
 
   [[nodiscard]] Expected<std::optional<RgbdFrame>> next() override {
-    if (next_ >= static_cast<int>(scene_->trajectory.size())) {
+    while (options_.fault == ScanFault::Dropped && strikes(options_.fault, next_, poses())) {
+      ++next_;
+    }
+    if (next_ >= poses()) {
       return std::optional<RgbdFrame>();
     }
-    return std::optional<RgbdFrame>(take(next_++));
+    RgbdFrame frame = take(next_++);
+    frame.index = given_++;
+    return std::optional<RgbdFrame>(std::move(frame));
   }
 
  private:
+  [[nodiscard]] int poses() const { return static_cast<int>(scene_->trajectory.size()); }
   [[nodiscard]] const RigidTransform& pose(int index) const {
-    const int last = static_cast<int>(scene_->trajectory.size()) - 1;
-    return *scene_->trajectory[static_cast<std::size_t>(std::clamp(index, 0, last))]
-                .scan_from_camera;
+    const int i = std::clamp(index, 0, poses() - 1);
+    return *scene_->trajectory[static_cast<std::size_t>(i)].scan_from_camera;
+  }
+  [[nodiscard]] bool struck(ScanFault fault, int index) const {
+    return options_.fault == fault && strikes(fault, index, poses());
   }
 
+  /// @param index  among all frames of the motion
   [[nodiscard]] RgbdFrame take(int index) const {
     RgbdFrame frame;
-    frame.index = index;
     frame.timestamp = scene_->trajectory[static_cast<std::size_t>(index)].timestamp;
-    IdealView view = renderer_.render(camera_.depth, pose(index));
-    frame.depth = senseDepth(view, camera_.depth, sensor_, index);
+    if (struck(ScanFault::Black, index)) {
+      frame.depth = DepthImage(camera_.depth.width, camera_.depth.height);
+      frame.color = ColorImage(camera_.color.width, camera_.color.height);
+      return frame;
+    }
+    const RigidTransform& scan_from_depth = pose(index);
+    IdealView view = look(camera_.depth, scan_from_depth, index);
+    frame.depth = spoiled(senseDepth(view, camera_.depth, sensor_, index), index);
     if (options_.layout == CameraLayout::Offset) {
-      view = renderer_.render(camera_.color, pose(index) * camera_.color_from_depth.inverse());
+      view = look(camera_.color, scan_from_depth * camera_.color_from_depth.inverse(), index);
     }
     frame.color = senseColor(view.color, sensor_, smearOf(index), index);
+    if (struck(ScanFault::Mirrored, index)) {
+      frame.color = mirrored(std::move(frame.color));
+    }
     return frame;
+  }
+
+  [[nodiscard]] IdealView look(const Intrinsics& camera,
+                               const RigidTransform& scan_from_camera,
+                               int index) const {
+    return struck(ScanFault::Blocked, index) ? handBefore(camera)
+                                             : renderer_.render(camera, scan_from_camera);
+  }
+
+  [[nodiscard]] DepthImage spoiled(DepthImage depth, int index) const {
+    if (struck(ScanFault::Holes, index)) {
+      return withHoles(std::move(depth), options_.seed, index);
+    }
+    if (struck(ScanFault::Unit, index)) {
+      for (float& z_mm : depth.pixels()) {
+        z_mm *= kUnitTooLarge;
+      }
+    }
+    return depth;
   }
 
   /// How far the middle of the foot runs over the image while the shutter is open. The sensor's
@@ -74,7 +111,8 @@ class SimulatedSource final : public FrameSource {
   RgbdCamera camera_;
   Renderer renderer_;
   Warnings warnings_;
-  int next_ = 0;
+  int next_ = 0;   ///< among all frames of the motion
+  int given_ = 0;  ///< frames handed out
 };
 
 }  // namespace

@@ -18,19 +18,25 @@ namespace tarsus {
 enum class FootCase { Forefoot, Heel, Lateral, Two };
 enum class CameraPath { Rig, Loop, Quick };
 enum class CameraLayout { Aligned, Offset };
+/// What goes wrong during the scan; the table in capture/simulator/README.md says what each does.
+/// The scene and its truth stay right whatever the camera does.
+enum class ScanFault { None, Black, Jump, Holes, Dropped, Mirrored, Rest, Blocked, Unit };
 
 /// The words of the command line.
 [[nodiscard]] std::string_view nameOf(FootCase foot);
 [[nodiscard]] std::string_view nameOf(CameraPath path);
 [[nodiscard]] std::string_view nameOf(CameraLayout layout);
+[[nodiscard]] std::string_view nameOf(ScanFault fault);
 [[nodiscard]] std::optional<FootCase> footCaseNamed(std::string_view name);
 [[nodiscard]] std::optional<CameraPath> cameraPathNamed(std::string_view name);
 [[nodiscard]] std::optional<CameraLayout> cameraLayoutNamed(std::string_view name);
+[[nodiscard]] std::optional<ScanFault> scanFaultNamed(std::string_view name);
 
 struct SimulatorOptions {
   FootCase foot = FootCase::Forefoot;
   CameraPath path = CameraPath::Rig;
   CameraLayout layout = CameraLayout::Aligned;
+  ScanFault fault = ScanFault::None;
   int frames = 600;  ///< over the same 20 s motion: fewer frames step further
   std::uint64_t seed = 1;
   double noise = 1.0;          ///< 0: exact depth and colour; 1: SR300 class
@@ -69,19 +75,22 @@ struct SimulatedScene {
   std::vector<WoundTruth> wounds;
   Eigen::Vector3d heel_mm = Eigen::Vector3d::Zero();  ///< most posterior plantar point
   Eigen::Vector3d toe_mm = Eigen::Vector3d::Zero();   ///< tip of the second toe
-  Trajectory trajectory;  ///< true poses of all frames, first = identity
+  /// True poses of all frames, first = identity; with the steps of ScanFault::Jump, without motion
+  /// for Rest, and also of the frames that Dropped takes away.
+  Trajectory trajectory;
 };
 
 /// @errors FileMissing, MeshInvalid (for options.mesh), BadOption
 [[nodiscard]] Expected<std::shared_ptr<const SimulatedScene>> buildScene(
     const SimulatorOptions& options);
 
-/// The scan as a camera: renders on demand, so that it can serve as a live one.
+/// The scan as a camera: renders on demand, so that it can serve as a live one. Every fault shows
+/// here as it does in a folder.
 [[nodiscard]] std::unique_ptr<FrameSource> openSimulator(
     std::shared_ptr<const SimulatedScene> scene, const SimulatorOptions& options);
 
 /// Writes the scan folder and truth/: mesh.ply, intact.ply, outline_N.json, skin_N.json and
-/// truth.json (per wound the keys of measurement.json).
+/// truth.json (per wound the keys of measurement.json). groundtruth.txt: poses of the frames there.
 /// @errors those of buildScene, FileUnwritable, DiskFull, Cancelled
 [[nodiscard]] Expected<void> simulateScan(const std::filesystem::path& folder,
                                           const SimulatorOptions& options,

@@ -57,6 +57,7 @@ json truthJson(const SimulatedScene& scene, const SimulatorOptions& options) {
            {{"foot", nameOf(options.foot)},
             {"path", nameOf(options.path)},
             {"camera", nameOf(options.layout)},
+            {"fault", nameOf(options.fault)},
             {"frames", options.frames},
             {"seed", options.seed},
             {"noise", options.noise},
