@@ -1,8 +1,7 @@
 #include "reconstruction/capture/camera_file.h"
 
 #include "reconstruction/base/atomic_file.h"
-
-#include <nlohmann/json.hpp>
+#include "reconstruction/capture/json_fields.h"
 
 #include <cmath>
 #include <string>
@@ -13,56 +12,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kMmPerM = 1000.0;
-constexpr int kMaxImageSide = 16384;
-
-/// Thrown only inside this file; readCamera turns it into an Error.
-struct Invalid {
-  std::string what;
-};
-
-double number(const json& object, const std::string& key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) {
-    throw Invalid{"\"" + key + "\" must be a number"};
-  }
-  const double value = found->get<double>();
-  if (!std::isfinite(value)) {
-    throw Invalid{"\"" + key + "\" must be finite"};
-  }
-  return value;
-}
-
-Intrinsics parseIntrinsics(const json& camera, const std::string& name) {
-  const auto found = camera.find(name);
-  if (found == camera.end() || !found->is_object()) {
-    throw Invalid{"\"" + name + "\" must be an object with width, height, fx, fy, cx, cy"};
-  }
-  const double width = number(*found, "width");
-  const double height = number(*found, "height");
-  Intrinsics result{.fx_px = number(*found, "fx"),
-                    .fy_px = number(*found, "fy"),
-                    .cx_px = number(*found, "cx"),
-                    .cy_px = number(*found, "cy")};
-  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
-      result.fx_px <= 0 || result.fy_px <= 0) {
-    throw Invalid{"\"" + name + "\" has a size or focal length that no camera has"};
-  }
-  result.width = static_cast<int>(width);
-  result.height = static_cast<int>(height);
-  if (const auto distortion = found->find("distortion"); distortion != found->end()) {
-    if (!distortion->is_array() || distortion->size() > result.distortion.size()) {
-      throw Invalid{"\"distortion\" must be [k1, k2, p1, p2, k3]"};
-    }
-    for (std::size_t i = 0; i < distortion->size(); ++i) {
-      if (!(*distortion)[i].is_number()) {
-        throw Invalid{"\"distortion\" must hold numbers"};
-      }
-      result.distortion[i] = (*distortion)[i].get<double>();
-    }
-  }
-  return result;
-}
-
 RigidTransform parseTransform(const json& rows) {
   Eigen::Matrix4d matrix;
   bool whole = rows.is_array() && rows.size() == 4;
@@ -78,7 +27,7 @@ RigidTransform parseTransform(const json& rows) {
                      (rotation * rotation.transpose()).isIdentity(1e-3) &&
                      rotation.determinant() > 0.0;
   if (!rigid) {
-    throw Invalid{"\"color_from_depth\" must be a rigid 4x4 matrix, row by row, in metres"};
+    throw InvalidField{"\"color_from_depth\" must be a rigid 4x4 matrix, row by row, in metres"};
   }
   RigidTransform result = RigidTransform::Identity();
   result.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
@@ -88,19 +37,19 @@ RigidTransform parseTransform(const json& rows) {
 
 RgbdCamera parseCamera(const json& object) {
   if (!object.is_object()) {
-    throw Invalid{"camera.json must hold an object"};
+    throw InvalidField{"camera.json must hold an object"};
   }
   RgbdCamera camera;
-  camera.depth = parseIntrinsics(object, "depth");
-  camera.color = parseIntrinsics(object, "color");
-  camera.depth_units_per_m = number(object, "depth_scale");
+  camera.depth = intrinsicsField(object, "depth");
+  camera.color = intrinsicsField(object, "color");
+  camera.depth_units_per_m = numberField(object, "depth_scale");
   if (camera.depth_units_per_m <= 0.0) {
-    throw Invalid{"\"depth_scale\" (units per metre) must be greater than 0"};
+    throw InvalidField{"\"depth_scale\" (units per metre) must be greater than 0"};
   }
   if (object.contains("fps")) {
-    camera.frames_per_s = number(object, "fps");
+    camera.frames_per_s = numberField(object, "fps");
     if (camera.frames_per_s <= 0.0) {
-      throw Invalid{"\"fps\" must be greater than 0"};
+      throw InvalidField{"\"fps\" must be greater than 0"};
     }
   }
   if (object.contains("color_from_depth")) {
@@ -113,6 +62,35 @@ RgbdCamera parseCamera(const json& object) {
   camera.model = text("model");
   camera.serial = text("serial");
   return camera;
+}
+
+ScanFacts parseScanFacts(const json& object) {
+  if (!object.is_object()) {
+    throw InvalidField{"camera.json must hold an object"};
+  }
+  ScanFacts facts;
+  if (object.contains("depth_correction")) {
+    facts.depth_correction = depthCorrectionField(object, "depth_correction");
+  }
+  if (object.contains("seconds_since_power_on")) {
+    facts.seconds_since_power_on = numberField(object, "seconds_since_power_on");
+  }
+  return facts;
+}
+
+template <typename Facts>
+Expected<Facts> readJson(const std::filesystem::path& path, Facts (*parse)(const json&)) {
+  auto text = readTextFile(path);
+  if (!text) {
+    return tl::unexpected(text.error());
+  }
+  try {
+    return parse(json::parse(*text));
+  } catch (const InvalidField& invalid) {
+    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + invalid.what);
+  } catch (const json::exception& exception) {
+    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + exception.what());
+  }
 }
 
 json toJson(const Intrinsics& intrinsics) {
@@ -131,17 +109,11 @@ json toJson(const Intrinsics& intrinsics) {
 }  // namespace
 
 Expected<RgbdCamera> readCamera(const std::filesystem::path& path) {
-  auto text = readTextFile(path);
-  if (!text) {
-    return tl::unexpected(text.error());
-  }
-  try {
-    return parseCamera(json::parse(*text));
-  } catch (const Invalid& invalid) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + invalid.what);
-  } catch (const json::exception& exception) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + exception.what());
-  }
+  return readJson(path, parseCamera);
+}
+
+Expected<ScanFacts> readScanFacts(const std::filesystem::path& path) {
+  return readJson(path, parseScanFacts);
 }
 
 Expected<void> writeCamera(const std::filesystem::path& path, const RgbdCamera& camera) {

@@ -18,7 +18,9 @@ struct CameraOverrides {
 };
 
 /// Opens a scan folder (design.md section 3) or any TUM RGB-D sequence: rgb.txt and depth.txt
-/// paired by time within half a frame, or associations.txt. Frames stream from the disk.
+/// paired by time within half a frame, or associations.txt. Frames stream from the disk. Depth is
+/// corrected as camera.json says, or else as the profile of its model does (device_profile.h);
+/// what is doubtful about it is among the source's warnings from the start.
 /// @errors FileMissing, CameraFactsMissing, CameraFactsInvalid, ScanEmpty, DepthFormatWrong and
 ///         DepthUnitImplausible (first frames looked at)
 [[nodiscard]] Expected<std::unique_ptr<FrameSource>> openScanFolder(

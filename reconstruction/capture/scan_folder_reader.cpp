@@ -1,5 +1,6 @@
 #include "reconstruction/base/require.h"
 #include "reconstruction/capture/camera_file.h"
+#include "reconstruction/capture/device_profile.h"
 #include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
@@ -17,6 +18,12 @@ constexpr double kNearestPlausibleMm = 150.0;
 constexpr double kFarthestPlausibleMm = 2000.0;
 constexpr int kFramesLookedAt = 10;    ///< for the depth unit's plausibility
 constexpr double kEnoughDepth = 0.01;  ///< share of pixels that such a frame must have
+
+/// How far the depth can be trusted, and what makes it right.
+struct DepthFacts {
+  DepthCorrection correction;
+  Warnings doubts;
+};
 
 /// One frame as it came off the disk, with what went wrong on the way.
 struct LoadedFrame {
@@ -39,12 +46,17 @@ std::optional<double> medianDepth(const DepthImage& depth) {
 
 class ScanFolderSource final : public FrameSource {
  public:
-  ScanFolderSource(RgbdCamera camera, std::vector<FrameFiles> files, const FrameContent& content)
+  ScanFolderSource(RgbdCamera camera,
+                   const DepthFacts& facts,
+                   std::vector<FrameFiles> files,
+                   const FrameContent& content)
       : camera_(std::move(camera)),
+        correction_(facts.correction),
         files_(std::move(files)),
         content_(content),
         depth_undistorter_(camera_.depth),
-        color_undistorter_(camera_.color) {
+        color_undistorter_(camera_.color),
+        warnings_(facts.doubts) {
     camera_.depth.distortion = {};
     camera_.color.distortion = {};
     startLoading();
@@ -96,10 +108,11 @@ class ScanFolderSource final : public FrameSource {
       loaded.warnings.push_back({"frame_skipped", describe(depth.error())});
       return loaded;
     }
-    RgbdFrame frame{.index = static_cast<int>(i),
-                    .timestamp = files.timestamp,
-                    .depth = depth_undistorter_.apply(std::move(*depth)),
-                    .color = {}};
+    RgbdFrame frame{
+        .index = static_cast<int>(i),
+        .timestamp = files.timestamp,
+        .depth = corrected(depth_undistorter_.apply(std::move(*depth)), correction_, camera_.depth),
+        .color = {}};
     if (content_.color) {
       loadColor(files, frame, loaded.warnings);
     }
@@ -126,6 +139,7 @@ class ScanFolderSource final : public FrameSource {
   }
 
   RgbdCamera camera_;
+  DepthCorrection correction_;
   std::vector<FrameFiles> files_;
   FrameContent content_;
   Undistorter depth_undistorter_;
@@ -184,8 +198,10 @@ Expected<DepthImage> firstDepth(const std::vector<FrameFiles>& files) {
   return fail(ErrorCode::ScanEmpty, first_error ? first_error->detail : "no frame is listed");
 }
 
+/// Median depth of the first frame that has enough, or nothing where none of the first has.
 /// @errors DepthUnitImplausible
-Expected<void> checkUnit(const std::vector<FrameFiles>& files, const RgbdCamera& camera) {
+Expected<std::optional<double>> plausibleMedian(const std::vector<FrameFiles>& files,
+                                                const RgbdCamera& camera) {
   const std::size_t count = std::min<std::size_t>(files.size(), kFramesLookedAt);
   for (std::size_t i = 0; i < count; ++i) {
     const auto depth = readDepthImage(files[i].depth, camera.depth_units_per_m);
@@ -198,9 +214,27 @@ Expected<void> checkUnit(const std::vector<FrameFiles>& files, const RgbdCamera&
                   "the median depth would be " + std::to_string(*median_mm / 1000.0) + " m with " +
                       std::to_string(camera.depth_units_per_m) + " units per metre");
     }
-    return {};
+    return median_mm;
   }
-  return {};
+  return std::nullopt;
+}
+
+/// @errors those of readScanFacts
+Expected<DepthFacts> depthFacts(const fs::path& camera_file,
+                                const std::string& model,
+                                std::optional<double> median_mm) {
+  std::error_code ignored;
+  const auto said =
+      fs::exists(camera_file, ignored) ? readScanFacts(camera_file) : Expected<ScanFacts>();
+  if (!said) {
+    return tl::unexpected(said.error());
+  }
+  const std::vector<DeviceProfile> profiles = deviceProfiles();
+  const DeviceProfile* profile = profileOf(model, profiles);
+  const DepthCorrection usual = profile != nullptr ? profile->correction : DepthCorrection{};
+  return DepthFacts{
+      .correction = said->depth_correction.value_or(usual),
+      .doubts = doubtsAboutDepth(model, profile, median_mm, said->seconds_since_power_on)};
 }
 
 Expected<RgbdCamera> cameraOf(const fs::path& folder,
@@ -251,10 +285,15 @@ Expected<std::unique_ptr<FrameSource>> openScanFolder(const fs::path& folder,
   if (!camera) {
     return tl::unexpected(camera.error());
   }
-  if (auto checked = checkUnit(*files, *camera); !checked) {
-    return tl::unexpected(checked.error());
+  const auto median_mm = plausibleMedian(*files, *camera);
+  if (!median_mm) {
+    return tl::unexpected(median_mm.error());
   }
-  return std::make_unique<ScanFolderSource>(std::move(*camera), std::move(*files), content);
+  const auto facts = depthFacts(folder / "camera.json", camera->model, *median_mm);
+  if (!facts) {
+    return tl::unexpected(facts.error());
+  }
+  return std::make_unique<ScanFolderSource>(std::move(*camera), *facts, std::move(*files), content);
 }
 
 }  // namespace tarsus

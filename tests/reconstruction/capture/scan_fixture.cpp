@@ -15,7 +15,7 @@ RgbdCamera smallCamera() {
       Eigen::Translation3d(25.0, -1.0, 2.0) * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY());
   camera.depth_units_per_m = 8000.0;
   camera.frames_per_s = 30.0;
-  camera.model = "small";
+  camera.model = "generic small camera";
   camera.serial = "S-1";
   return camera;
 }

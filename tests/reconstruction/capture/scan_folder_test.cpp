@@ -64,7 +64,7 @@ TEST(ScanFolder, CameraFactsRoundTrip) {
   EXPECT_EQ(read.color, written.color);
   EXPECT_TRUE(read.color_from_depth.isApprox(written.color_from_depth, 1e-12));
   EXPECT_EQ(read.depth_units_per_m, 8000.0);
-  EXPECT_EQ(read.model, "small");
+  EXPECT_EQ(read.model, "generic small camera");
   EXPECT_EQ(read.serial, "S-1");
 }
 

@@ -314,6 +314,7 @@ TEST(ScanFaults, TruthFilesHoldTheFramesThereAndNameTheFault) {
   auto scan = openScanFolder(folder.path());
   ASSERT_TRUE(scan) << describe(scan.error());
   const auto frames = framesOf(**scan);
+  EXPECT_TRUE((*scan)->warnings().empty());
   const auto truth = readTrajectory(folder.path() / "groundtruth.txt");
   ASSERT_TRUE(truth);
   ASSERT_EQ(frames.size(), 2U);
