@@ -155,7 +155,14 @@ TEST(ScanFolder, ReadsTheRealScans) {
     for (const RgbdFrame& frame : readAll(**source)) {
       EXPECT_EQ(frame.color.width(), (*source)->camera().color.width);
     }
-    EXPECT_TRUE((*source)->warnings().empty());
+    // The still camera of the bust has no profile; that is all there is to say of either.
+    std::vector<std::string> codes;
+    for (const Warning& warning : (*source)->warnings()) {
+      codes.push_back(warning.code);
+    }
+    EXPECT_EQ(codes,
+              name == std::string("bust") ? std::vector<std::string>{"device_unknown"}
+                                          : std::vector<std::string>{});
   }
 }
 
