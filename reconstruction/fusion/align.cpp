@@ -22,8 +22,7 @@ constexpr double kFreeDirection = 1e-3;
 constexpr double kLargestStep_mm = 30.0;
 /// Steeper than 66 degrees, a reading says little and errs much.
 constexpr float kLeastCosine = 0.4F;
-constexpr int kRaySteps = 2;
-constexpr float kLargestLastStep_mm = 1.0F;
+constexpr float kLargestRayStep_mm = 5.0F;
 
 /// What one pass over the points adds up.
 struct Sums {
@@ -234,21 +233,17 @@ std::optional<RayOnSurface> meetSurface(const TsdfVolume& field,
                                         const Eigen::Vector3f& p_camera) {
   const Eigen::Vector3f measured = scan_from_camera * p_camera;
   const Eigen::Vector3f ray = scan_from_camera.linear() * p_camera.normalized();
-  RayOnSurface result{.p = measured};
   SdfSample sample;
-  float step_mm = 0.0F;
-  for (int step = 0; step < kRaySteps; ++step) {
-    if (!field.sample(result.p, sample)) {
-      return std::nullopt;
-    }
-    const float approach = -sample.gradient.dot(ray);
-    if (approach < kLeastCosine) {
-      return std::nullopt;
-    }
-    step_mm = sample.distance_mm / approach;
-    result.p += ray * step_mm;
+  if (!field.sample(measured, sample)) {
+    return std::nullopt;
   }
-  if (std::abs(step_mm) > kLargestLastStep_mm || !field.sample(result.p, sample)) {
+  const float approach = -sample.gradient.dot(ray);
+  if (approach < kLeastCosine || std::abs(sample.distance_mm) > kLargestRayStep_mm * approach) {
+    return std::nullopt;
+  }
+  // One step of Newton's; what is left of it enters the residual.
+  RayOnSurface result{.p = measured + ray * (sample.distance_mm / approach)};
+  if (!field.sample(result.p, sample)) {
     return std::nullopt;
   }
   const float length = sample.gradient.norm();

@@ -7,10 +7,11 @@
 namespace tarsus {
 namespace {
 
-using Corners = std::array<float, 8>;
-
 /// Value and gradient of the trilinear interpolant; corner i stands at the bits of i.
-bool interpolate(const Corners& c, const Eigen::Vector3f& t, float per_mm, SdfSample& result) {
+inline bool interpolate(const std::array<float, 8>& c,
+                        const Eigen::Vector3f& t,
+                        float per_mm,
+                        SdfSample& result) {
   const float x00 = c[0] + t.x() * (c[1] - c[0]);
   const float x10 = c[2] + t.x() * (c[3] - c[2]);
   const float x01 = c[4] + t.x() * (c[5] - c[4]);
@@ -77,16 +78,37 @@ bool BlockGrid::sample(const Eigen::Vector3f& p_scan, SdfSample& result) const {
   if (std::isnan(d[0])) {
     return false;
   }
+  Corners corners;
   if ((v.x() & 7) < 7 && (v.y() & 7) < 7 && (v.z() & 7) < 7) {
     return interpolate(
         {d[0], d[1], d[8], d[9], d[64], d[65], d[72], d[73]}, t, inverse_voxel_size_, result);
   }
-  Corners corners{};
+  return cornersAcrossBlocks(v, corners) && interpolate(corners, t, inverse_voxel_size_, result);
+}
+
+bool BlockGrid::cornersAcrossBlocks(const Eigen::Vector3i& v, Corners& corners) const {
+  const std::array<int, 3> at{v.x() & 7, v.y() & 7, v.z() & 7};
+  const int crossing = (at[0] == 7 ? 1 : 0) | (at[1] == 7 ? 2 : 0) | (at[2] == 7 ? 4 : 0);
+  // One look-up for each block that the cell reaches into: 2, 4 or 8.
+  std::array<const float*, 8> blocks{};
   for (int i = 0; i < 8; ++i) {
-    corners[static_cast<std::size_t>(i)] =
-        distanceAt(v + Eigen::Vector3i(i & 1, (i >> 1) & 1, i >> 2));
+    if ((i & ~crossing) == 0) {
+      const int number =
+          find({(v.x() >> 3) + (i & 1), (v.y() >> 3) + ((i >> 1) & 1), (v.z() >> 3) + (i >> 2)});
+      if (number < 0) {
+        return false;
+      }
+      blocks[static_cast<std::size_t>(i)] = block(number).distance_mm.data();
+    }
   }
-  return interpolate(corners, t, inverse_voxel_size_, result);
+  for (int i = 0; i < 8; ++i) {
+    const int x = (at[0] + (i & 1)) & 7;
+    const int y = (at[1] + ((i >> 1) & 1)) & 7;
+    const int z = (at[2] + (i >> 2)) & 7;
+    corners[static_cast<std::size_t>(i)] =
+        blocks[static_cast<std::size_t>(i & crossing)][x | (y << 3) | (z << 6)];
+  }
+  return true;
 }
 
 std::size_t BlockGrid::memoryBytes() const {

@@ -80,6 +80,10 @@ class BlockGrid {
   [[nodiscard]] std::size_t memoryBytes() const;
 
  private:
+  using Corners = std::array<float, 8>;
+  /// Distances at the corners of the cell from v on, where it crosses blocks; false without them.
+  [[nodiscard]] bool cornersAcrossBlocks(const Eigen::Vector3i& v, Corners& corners) const;
+
   static constexpr int kRegionBits = 4;  ///< a region is 16^3 blocks
   static constexpr int kTopBits = 7;     ///< the index covers 128^3 regions around the origin
   using Region = std::array<std::int32_t, 1 << (3 * kRegionBits)>;

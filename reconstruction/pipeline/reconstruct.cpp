@@ -133,12 +133,13 @@ class ScanReconstruction {
     TsdfOptions volume_options = options_.surface;
     volume_options.with_color = false;  // the vertices get theirs straight from the frames
     const auto near = region_ ? std::span(region_->points()) : std::span<const Eigen::Vector3f>();
-    auto volume = fuseScan(scan_->archive, scan_->trajectory, near, volume_options, job_);
-    if (!volume) {
-      return tl::unexpected(volume.error());
+    auto fused = fuseScan(scan_->archive, scan_->trajectory, near, volume_options, job_);
+    if (!fused) {
+      return tl::unexpected(fused.error());
     }
+    scan_->points = std::move(fused->points);
     clock_.end("fuse", result_.frames_total);
-    surface_ = volume->extractSurface(options_.min_weight);
+    surface_ = fused->volume.extractSurface(options_.min_weight);
     if (surface_.mesh.faces.empty()) {
       return fail(ErrorCode::SurfaceEmpty);
     }
@@ -151,7 +152,7 @@ class ScanReconstruction {
       PoseRefinementOptions last = options_.refinement;
       last.sweeps = options_.refinement_sweeps_on_surface;
       last.kernel_mm = last.least_kernel_mm;
-      const auto moved = refineOn(*volume, last);
+      const auto moved = refineOn(fused->volume, last);
       if (!moved) {
         return tl::unexpected(moved.error());
       }

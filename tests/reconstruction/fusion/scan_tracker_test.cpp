@@ -226,11 +226,11 @@ TEST(FuseScan, FusesOnlyFramesWithAPose) {
   frames[3] = frameOf(scanAt({1.0}, false).front().depth, 3);  // must not be looked at
   TsdfOptions options;
   options.with_color = false;
-  const auto volume = fuseScan(archiveOf(frames), trajectory, {}, options, {});
-  ASSERT_TRUE(volume);
+  const auto fused = fuseScan(archiveOf(frames), trajectory, {}, options, {});
+  ASSERT_TRUE(fused);
   const AnalyticScene scene = bumpyScene();
   double squares = 0.0;
-  const ExtractedSurface surface = volume->extractSurface(3.0F);
+  const ExtractedSurface surface = fused->volume.extractSurface(3.0F);
   for (const Eigen::Vector3f& vertex : surface.mesh.vertices) {
     squares += std::pow(scene.distance(vertex.cast<double>()), 2);
   }
