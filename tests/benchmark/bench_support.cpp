@@ -47,13 +47,11 @@ void Distances::printWithin(const char* name, double limit_mm) const {
               100.0 * (1.0 - static_cast<double>(near.values_mm.size()) / n));
 }
 
-void printTrajectoryError(const Trajectory& trajectory, const Trajectory& reference) {
+TrajectoryError trajectoryError(const Trajectory& trajectory, const Trajectory& reference) {
   constexpr std::chrono::microseconds kSameTime{2000};
   std::optional<RigidTransform> scan_from_reference;
+  TrajectoryError error;
   double squares = 0.0;
-  double farthest = 0.0;
-  double turn = 0.0;
-  int count = 0;
   for (const FramePose& pose : trajectory) {
     const auto truth = poseAt(reference, pose.timestamp, kSameTime);
     if (!pose.scan_from_camera || !truth) {
@@ -64,17 +62,23 @@ void printTrajectoryError(const Trajectory& trajectory, const Trajectory& refere
     }
     const RigidTransform difference =
         pose.scan_from_camera->inverse() * *scan_from_reference * *truth;
-    const double error = difference.translation().norm();
-    squares += error * error;
-    farthest = std::max(farthest, error);
-    turn = std::max(turn, Eigen::AngleAxisd(difference.linear()).angle());
-    ++count;
+    const double distance = difference.translation().norm();
+    squares += distance * distance;
+    error.farthest_mm = std::max(error.farthest_mm, distance);
+    error.turn_rad = std::max(error.turn_rad, Eigen::AngleAxisd(difference.linear()).angle());
+    ++error.poses;
   }
+  error.rms_mm = std::sqrt(squares / std::max(1, error.poses));
+  return error;
+}
+
+void printTrajectoryError(const Trajectory& trajectory, const Trajectory& reference) {
+  const TrajectoryError error = trajectoryError(trajectory, reference);
   std::printf("trajectory RMSE [mm]        %8.3f   farthest %.2f mm, %.3f degrees, %d poses\n",
-              std::sqrt(squares / std::max(1, count)),
-              farthest,
-              turn * 180.0 / 3.14159265358979,
-              count);
+              error.rms_mm,
+              error.farthest_mm,
+              error.turn_rad * 180.0 / 3.14159265358979,
+              error.poses);
 }
 
 void printLostFrames(const Trajectory& trajectory) {

@@ -54,6 +54,14 @@ struct Distances {
 
 /// Camera positions against the reference, first tracked pose anchored, no further alignment
 /// (design.md section 5).
+struct TrajectoryError {
+  double rms_mm = 0.0;
+  double farthest_mm = 0.0;
+  double turn_rad = 0.0;  ///< largest
+  int poses = 0;
+};
+[[nodiscard]] TrajectoryError trajectoryError(const Trajectory& trajectory,
+                                              const Trajectory& reference);
 void printTrajectoryError(const Trajectory& trajectory, const Trajectory& reference);
 
 /// Lost frames, one line each.
