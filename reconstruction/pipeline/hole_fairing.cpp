@@ -24,13 +24,16 @@ double cotangent(const Vector3d& apex, const Vector3d& a, const Vector3d& b) {
 
 struct Operators {
   SparseMatrix laplacian;  ///< integrated; rows of outer points are empty
+  SparseMatrix stiffness;  ///< of the faces whose corners are all inner points
   Eigen::VectorXd area_mm2;
 };
 
 /// Source: Meyer et al., Discrete differential-geometry operators, 2003 (cotangent weights).
 Operators operatorsOn(const std::vector<Vector3d>& points, const FairingPatch& patch) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  Operators result{SparseMatrix(count, count), Eigen::VectorXd::Zero(count)};
+  Operators result{
+      SparseMatrix(count, count), SparseMatrix(count, count), Eigen::VectorXd::Zero(count)};
+  Triplets stiff;
   Triplets entries;
   const auto add = [&](int row, int other, double weight) {
     if (patch.inner[static_cast<std::size_t>(row)] != 0) {
@@ -43,16 +46,26 @@ Operators operatorsOn(const std::vector<Vector3d>& points, const FairingPatch& p
       return points[static_cast<std::size_t>(f[k])];
     };
     const double area = 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+    const bool all_inner = patch.inner[static_cast<std::size_t>(f[0])] != 0 &&
+                           patch.inner[static_cast<std::size_t>(f[1])] != 0 &&
+                           patch.inner[static_cast<std::size_t>(f[2])] != 0;
     for (int k = 0; k < 3; ++k) {
       const int a = (k + 1) % 3;
       const int b = (k + 2) % 3;
       const double weight = 0.5 * cotangent(at(k), at(a), at(b));
       add(f[a], f[b], weight);
       add(f[b], f[a], weight);
+      if (all_inner) {
+        stiff.emplace_back(f[a], f[b], -weight);
+        stiff.emplace_back(f[b], f[a], -weight);
+        stiff.emplace_back(f[a], f[a], weight);
+        stiff.emplace_back(f[b], f[b], weight);
+      }
       result.area_mm2[f[k]] += area / 3.0;
     }
   }
   result.laplacian.setFromTriplets(entries.begin(), entries.end());
+  result.stiffness.setFromTriplets(stiff.begin(), stiff.end());
   const double least = 0.1 * result.area_mm2.mean();
   result.area_mm2 = result.area_mm2.cwiseMax(std::max(least, 1e-12));
   return result;
@@ -63,14 +76,15 @@ bool solveOnce(const FairingPatch& patch, double smoothing_mm, std::vector<Vecto
   const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::VectorXd tie(count);
   Eigen::MatrixXd right(count, 3);
-  const double stiffness = 1.0 / std::pow(smoothing_mm, 4);
+  const double stiffness = 1.0 / std::pow(smoothing_mm, 6);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     tie[i] = patch.trust[k] * stiffness * operators.area_mm2[i];
     right.row(i) = tie[i] * patch.points[k].transpose();
   }
-  const SparseMatrix scaled = operators.area_mm2.cwiseInverse().asDiagonal() * operators.laplacian;
-  SparseMatrix system = SparseMatrix(operators.laplacian.transpose()) * scaled;
+  const SparseMatrix curvature =
+      operators.area_mm2.cwiseInverse().asDiagonal() * operators.laplacian;
+  SparseMatrix system = SparseMatrix(curvature.transpose()) * operators.stiffness * curvature;
   system += SparseMatrix(tie.asDiagonal());
   const Eigen::SimplicialLDLT<SparseMatrix> solver(system);
   if (solver.info() != Eigen::Success) {

@@ -4,9 +4,9 @@
 #include "reconstruction/pipeline/hole_loops.h"
 #include "tests/reconstruction/scene/shapes.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
@@ -55,7 +55,8 @@ ExtractedSurface heightField(int half, const std::function<double(double, double
   const int side = 2 * half + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
-      mesh.vertices.push_back(Vector3d(i - half, j - half, height(i - half, j - half)).cast<float>());
+      mesh.vertices.push_back(
+          Vector3d(i - half, j - half, height(i - half, j - half)).cast<float>());
     }
   }
   for (int j = 0; j + 1 < side; ++j) {
@@ -127,7 +128,8 @@ struct FillError {
   double rms_mm = 0.0;
   int count = 0;
 };
-FillError errorOf(const ClosedSurface& closed, const std::function<double(const Vector3d&)>& error) {
+FillError errorOf(const ClosedSurface& closed,
+                  const std::function<double(const Vector3d&)>& error) {
   FillError result;
   for (std::size_t i = 0; i < closed.unseen.size(); ++i) {
     if (closed.unseen[i] != 0) {
@@ -182,9 +184,7 @@ double craterHeight(double x, double y) {
   const double r2 = x * x + y * y;
   return r2 < 144.0 ? 5.0 - std::sqrt(169.0 - r2) : 0.0;
 }
-double craterError(const Vector3d& p) {
-  return (p - Vector3d(0.0, 0.0, 5.0)).norm() - 13.0;
-}
+double craterError(const Vector3d& p) { return (p - Vector3d(0.0, 0.0, 5.0)).norm() - 13.0; }
 
 // The bed's deepest part is missing: filled flat it would lose 1.5 mm of depth.
 TEST(CloseSmallHoles, CraterBedContinuesItsWalls) {
@@ -253,7 +253,8 @@ TEST(CloseSmallHoles, LargeOpeningsAndOuterBordersStay) {
   const ExtractedSurface wide =
       withoutBall(surfaceOf(makeSphere(30.0, 60)), {30.0F, 0.0F, 0.0F}, 10.0F);
   EXPECT_EQ(closeSmallHoles(wide).holes_closed, 0);
-  EXPECT_EQ(closeSmallHoles(wide, {.max_perimeter_mm = 200.0, .max_area_mm2 = 500.0}).holes_closed, 1);
+  EXPECT_EQ(closeSmallHoles(wide, {.max_perimeter_mm = 200.0, .max_area_mm2 = 500.0}).holes_closed,
+            1);
 }
 
 TEST(CloseSmallHoles, HolesThatTouchInAVertexAreClosedEachForItself) {
@@ -289,17 +290,16 @@ TEST(CloseSmallHoles, AnIslandHeldByTwoVerticesStaysUncovered) {
     }
     // Ring between |x|+|y| = 2 and 5, without the parts at the x axis' bridges.
     const float d = std::abs(middle.x()) + std::abs(middle.y());
-    keep.push_back(d > 2.0F && d < 5.0F && std::abs(middle.y()) > 0.0F &&
-                           std::abs(middle.x()) < 2.0F
-                       ? 0
-                       : 1);
+    keep.push_back(
+        d > 2.0F && d < 5.0F && std::abs(middle.y()) > 0.0F && std::abs(middle.x()) < 2.0F ? 0 : 1);
   }
   open = keepFaces(open, keep);
   const ClosedSurface closed = closeSmallHoles(open);
   EXPECT_EQ(closed.holes_left, 0);
   EXPECT_EQ(closed.holes_closed, static_cast<int>(borderLoops(open.mesh).size()) - 1);
   expectOriginalFirst(open, closed);
-  EXPECT_NEAR(closed.closed_area_mm2, std::abs(41.0 * 41.0 - 41.0 * 41.0) + closed.closed_area_mm2, 1e-9);
+  EXPECT_NEAR(
+      closed.closed_area_mm2, std::abs(41.0 * 41.0 - 41.0 * 41.0) + closed.closed_area_mm2, 1e-9);
 }
 
 TEST(CloseSmallHoles, TheSmallestHoleIsOneTriangle) {
