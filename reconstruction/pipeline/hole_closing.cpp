@@ -97,8 +97,9 @@ class Joiner {
                             static_cast<std::uint8_t>(mean.z())});
     }
     if (!given.sigma_mm.empty()) {
-      out.sigma_mm.push_back(static_cast<float>(
-          std::hypot(rim_sigma_mm, site_.options.unseen_sigma_per_mm * nearest_mm)));
+      const HoleOptions& options = site_.options;
+      out.sigma_mm.push_back(static_cast<float>(std::hypot(
+          rim_sigma_mm, options.unseen_sigma_mm, options.unseen_sigma_per_mm * nearest_mm)));
     }
     if (!given.observations.empty()) {
       out.observations.push_back(0);
