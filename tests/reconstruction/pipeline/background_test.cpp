@@ -1,8 +1,11 @@
 #include "reconstruction/pipeline/background.h"
 
+#include "reconstruction/fusion/surface_cleanup.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace tarsus {
@@ -141,6 +144,108 @@ TEST(RemoveBackground, NoSurfaceOrNoCameraIsNoFault) {
   ExtractedSurface surface;
   addEllipsoid(surface, Vector3f::Zero(), {45, 120, 40});
   EXPECT_FALSE(removeBackground(withNormals(surface), {}).told_apart);
+}
+
+double areaWhere(const TriangleMesh& mesh, const std::function<bool(const Vector3f&)>& counts) {
+  double area = 0.0;
+  for (const Eigen::Vector3i& f : mesh.faces) {
+    const Vector3f a = mesh.vertices[static_cast<std::size_t>(f[0])];
+    const Vector3f b = mesh.vertices[static_cast<std::size_t>(f[1])];
+    const Vector3f c = mesh.vertices[static_cast<std::size_t>(f[2])];
+    area += counts((a + b + c) / 3.0F) ? 0.5 * (b - a).cross(c - a).norm() : 0.0;
+  }
+  return area;
+}
+
+// A calf that lies on the bench, sunk in by 3 mm. Skin nearer than 3 mm to the bench may go; above
+// it 99.5 % must stay, and of the bench next to nothing.
+TEST(RemoveBackground, SkinThatRestsOnTheBenchStays) {
+  const Vector3f center(0, 23, 150);
+  ExtractedSurface calf;
+  addEllipsoid(calf, center, {45, 40, 110});
+  const auto on_skin = [&](const Vector3f& p) {
+    const Vector3f scaled = (p - center).cwiseQuotient(Vector3f(45, 40, 110));
+    return std::abs(scaled.norm() - 1.0F) < 0.03F;
+  };
+  ExtractedSurface scene;
+  addRoom(scene);
+  const std::size_t room_faces = scene.mesh.faces.size();
+  const int first = static_cast<int>(scene.mesh.vertices.size());
+  scene.mesh.vertices.insert(
+      scene.mesh.vertices.end(), calf.mesh.vertices.begin(), calf.mesh.vertices.end());
+  for (const Eigen::Vector3i& f : calf.mesh.faces) {
+    scene.mesh.faces.push_back(f.array() + first);
+  }
+  // What lies in the bench or under the calf is never seen.
+  std::vector<std::uint8_t> seen;
+  for (std::size_t i = 0; i < scene.mesh.faces.size(); ++i) {
+    const Vector3f p = scene.mesh.vertices[static_cast<std::size_t>(scene.mesh.faces[i][0])];
+    const bool under = ((p - center).cwiseQuotient(Vector3f(45, 40, 110))).norm() < 1.0F;
+    seen.push_back(i < room_faces ? (under ? 0 : 1) : (p.y() < 60.0F ? 1 : 0));
+  }
+  scene = keepFaces(withNormals(scene), seen);
+  const auto free_skin = [&](const Vector3f& p) { return on_skin(p) && p.y() < 57.0F; };
+  const auto bench = [&](const Vector3f& p) { return !on_skin(p); };
+  const auto result = removeBackground(scene, camerasAt(center.cast<double>()));
+  ASSERT_TRUE(result.told_apart);
+  EXPECT_GE(areaWhere(result.surface.mesh, free_skin), 0.995 * areaWhere(scene.mesh, free_skin));
+  EXPECT_LE(areaWhere(result.surface.mesh, bench), 0.005 * areaWhere(scene.mesh, free_skin));
+}
+
+TEST(RemoveBackground, AFootWithAnUnseenBandStaysWhole) {
+  ExtractedSurface surface;
+  addEllipsoid(surface, Vector3f::Zero(), {45, 120, 40});
+  const std::size_t foot_faces = surface.mesh.faces.size();
+  addRoom(surface);
+  surface = withNormals(surface);
+  std::vector<std::uint8_t> seen(surface.mesh.faces.size(), 1);
+  for (std::size_t i = 0; i < foot_faces; ++i) {
+    const Vector3f p = surface.mesh.vertices[static_cast<std::size_t>(surface.mesh.faces[i][0])];
+    seen[i] = p.y() > 0.0F && p.y() < 20.0F ? 0 : 1;
+  }
+  surface = keepFaces(surface, seen);
+  const auto result = removeBackground(surface, camerasAt({0.0, -40.0, 0.0}));
+  EXPECT_EQ(result.parts, 2);
+  const auto foot = [](const Vector3f& p) { return std::abs(p.x()) < 46 && p.z() < 41; };
+  EXPECT_GE(areaWhere(result.surface.mesh, foot), 0.98 * areaWhere(surface.mesh, foot));
+}
+
+TEST(RemoveBackground, TheOtherFootBesideItGoes) {
+  ExtractedSurface surface;
+  addEllipsoid(surface, Vector3f::Zero(), {45, 120, 40});
+  addEllipsoid(surface, {105, 0, 0}, {45, 120, 40});  // 15 mm between them
+  addRectangle(surface, {-400, -300, 300}, {0, 600, 0}, {800, 0, 0});
+  const auto result = removeBackground(withNormals(surface), camerasAt(Eigen::Vector3d::Zero()));
+  EXPECT_TRUE(result.told_apart);
+  EXPECT_LE(farthestFrom(result.surface.mesh, Vector3f::Zero()), 120.5);
+}
+
+TEST(RemoveBackground, WhatWasCutIsAccountedFor) {
+  ExtractedSurface surface;
+  addEllipsoid(surface, Vector3f::Zero(), {45, 120, 40});
+  addEllipsoid(surface, {250, -200, 0}, {60, 60, 60});
+  addEllipsoid(surface, {-200, -200, 0}, {4, 4, 4});
+  addRoom(surface);
+  surface = withNormals(surface);
+  const auto result = removeBackground(surface, camerasAt(Eigen::Vector3d::Zero()));
+  const auto all = [](const Vector3f&) { return true; };
+  ASSERT_EQ(result.cut.size(), 3U);
+  double area = areaWhere(result.surface.mesh, all);
+  double share = static_cast<double>(result.surface.mesh.faces.size()) /
+                 static_cast<double>(surface.mesh.faces.size());
+  for (const CutShare& cut : result.cut) {
+    area += cut.area_mm2;
+    share += cut.share_of_faces;
+  }
+  EXPECT_NEAR(area, areaWhere(surface.mesh, all), 1e-3 * area);
+  EXPECT_NEAR(share, 1.0, 1e-9);
+  EXPECT_EQ(nameOf(result.cut[0].reason), "support_plane");
+  // The wall and the bench: 800 x 600 and 600 x 260 mm.
+  EXPECT_NEAR(result.cut[0].area_mm2, 480000.0 + 156000.0, 0.01 * 636000.0);
+  EXPECT_EQ(nameOf(result.cut[1].reason), "other_object");
+  EXPECT_NEAR(result.cut[1].area_mm2, 4.0 * std::numbers::pi * 3600.0, 0.02 * 45239.0);
+  EXPECT_EQ(nameOf(result.cut[2].reason), "flying_piece");
+  EXPECT_NEAR(result.cut[2].area_mm2, 4.0 * std::numbers::pi * 16.0, 10.0);
 }
 
 TEST(RemoveBackground, SameInputSameBits) {
