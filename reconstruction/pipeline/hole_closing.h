@@ -19,8 +19,10 @@ struct HoleOptions {
   /// Standard deviation of a closed vertex: this, and `unseen_sigma_per_mm` for each mm between it
   /// and the seen rim, and the rim's own, in quadrature. The first because real holes lie where
   /// the surface round them is worst (clefts of toes, the foot of a crater's wall): fillings in
-  /// models of simulated scans were off by 0.3 to 1.1 mm RMS, 1 mm from the rim. The second because
-  /// nobody saw whether the wall went on or turned: 0.25 is a slope of 14 degrees.
+  /// models of three simulated feet were off by 0.5 to 0.7 mm RMS within 2 mm of the rim, the
+  /// surface itself by 0.15. The second because nobody saw whether the wall went on or turned: 0.25
+  /// is a slope of 14 degrees. So 10 to 29 % of the vertices lay beyond one deviation, none beyond
+  /// two.
   double unseen_sigma_mm = 0.8;
   double unseen_sigma_per_mm = 0.25;
   /// Noise of the rim is smoothed over this many mean edges before the filling continues it.

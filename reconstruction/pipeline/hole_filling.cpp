@@ -135,33 +135,6 @@ bool fair(const HoleSite& site,
   return true;
 }
 
-/// New edges between two vertices of the rim must not exist already: three faces would share them.
-bool repeatsAnEdge(const HoleSite& site, const Filling& filling) {
-  const int rim_size = static_cast<int>(filling.rim.size());
-  const auto rim_edge = [&](int a, int b) {
-    return (a + 1) % rim_size == b || (b + 1) % rim_size == a;
-  };
-  for (const Eigen::Vector3i& f : filling.faces) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = f[k];
-      const int b = f[(k + 1) % 3];
-      if (a >= rim_size || b >= rim_size || (rim_size > 3 && rim_edge(a, b)) || rim_size == 3) {
-        continue;
-      }
-      const auto v = static_cast<std::size_t>(filling.rim[static_cast<std::size_t>(a)]);
-      const int other = filling.rim[static_cast<std::size_t>(b)];
-      for (int i = site.around.first[v]; i < site.around.first[v + 1]; ++i) {
-        const int face = site.around.faces[static_cast<std::size_t>(i)];
-        const Eigen::Vector3i& g = site.surface.mesh.faces[static_cast<std::size_t>(face)];
-        if ((g.array() == other).any()) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
 Filling toFilling(const FillMesh& fill, const std::vector<int>& rim) {
   Filling filling{.rim = rim, .faces = fill.faces};
   for (std::size_t i = rim.size(); i < fill.points.size(); ++i) {
@@ -217,6 +190,24 @@ Eigen::AlignedBox3f boxOf(const std::vector<NamedTriangle>& triangles) {
   return box;
 }
 
+namespace {
+
+/// Small enough, and it touches the surface in its rim alone.
+bool isClean(const HoleSite& site, const Filling& filling) {
+  if (filling.area_mm2 > site.options.max_area_mm2) {
+    return false;
+  }
+  const int first_name = static_cast<int>(site.surface.mesh.vertices.size());
+  const auto triangles = namedTriangles(site, filling, first_name);
+  std::vector<NamedTriangle> others;
+  for (const int face : site.grid.facesIn(boxOf(triangles))) {
+    others.push_back(namedTriangle(site.surface.mesh, face));
+  }
+  return !crosses(triangles, others);
+}
+
+}  // namespace
+
 std::optional<Filling> fillHole(const HoleSite& site, const BorderLoop& loop) {
   const std::size_t count = loop.vertices.size();
   std::vector<int> rim(loop.vertices.rbegin(), loop.vertices.rend());
@@ -232,21 +223,21 @@ std::optional<Filling> fillHole(const HoleSite& site, const BorderLoop& loop) {
   const auto near = facesNear(site, rim, kReach_edges * edge_mm);
   edge_mm = typicalEdge(site, near);
   for (const FillStart start : {FillStart::Triangulation, FillStart::Fan}) {
-    auto fill = meshHole(points, opposite, edge_mm, start);
-    if (!fill || (fill->points.size() > count && !fair(site, near, edge_mm, rim, *fill))) {
+    const auto flat = meshHole(points, opposite, edge_mm, start);
+    if (!flat) {
       continue;
     }
-    Filling filling = toFilling(*fill, rim);
-    if (filling.area_mm2 > site.options.max_area_mm2 || repeatsAnEdge(site, filling)) {
-      continue;
+    FillMesh smooth = *flat;
+    if (fair(site, near, edge_mm, rim, smooth)) {
+      Filling filling = toFilling(smooth, rim);
+      if (isClean(site, filling)) {
+        return filling;
+      }
     }
-    const int first_name = static_cast<int>(site.surface.mesh.vertices.size());
-    const auto triangles = namedTriangles(site, filling, first_name);
-    std::vector<NamedTriangle> others;
-    for (const int face : site.grid.facesIn(boxOf(triangles))) {
-      others.push_back(namedTriangle(site.surface.mesh, face));
-    }
-    if (!crosses(triangles, others)) {
+    // In a hole of a few edges' width, among others on a noisy surface, flat will do.
+    constexpr double kFlat_edges2 = 10.0;
+    Filling filling = toFilling(*flat, rim);
+    if (filling.area_mm2 < kFlat_edges2 * edge_mm * edge_mm && isClean(site, filling)) {
       return filling;
     }
   }

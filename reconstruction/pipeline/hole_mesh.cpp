@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <exception>
+#include <map>
 
 namespace tarsus {
 namespace {
@@ -47,6 +48,91 @@ double meanEdge(std::span<const Vector3d> rim) {
   }
   return sum / static_cast<double>(rim.size());
 }
+
+/// New points on the edges between two corners of the rim, so that each face of a narrow filling
+/// has a corner of its own, which can be marked as made up.
+class ChordSplitter {
+ public:
+  ChordSplitter(FillMesh& fill, int rim_size) : fill_(fill), rim_size_(rim_size) {
+    for (const Eigen::Vector3i& f : fill.faces) {
+      for (int k = 0; k < 3; ++k) {
+        ++faces_at_edge_[std::minmax(f[k], f[(k + 1) % 3])];
+      }
+    }
+  }
+
+  void split() {
+    std::vector<Eigen::Vector3i> old_faces;
+    std::swap(old_faces, fill_.faces);
+    for (const Eigen::Vector3i& f : old_faces) {
+      if ((f.array() < rim_size_).all() && rim_size_ == 3) {
+        splitAtCenter(f);
+      } else {
+        splitFace(f, {middle(f[0], f[1]), middle(f[1], f[2]), middle(f[2], f[0])});
+      }
+    }
+  }
+
+ private:
+  /// The new point on an edge; -1 where it stays whole.
+  int middle(int a, int b) {
+    const std::pair<int, int> edge = std::minmax(a, b);
+    if (a >= rim_size_ || b >= rim_size_ || faces_at_edge_.at(edge) < 2) {
+      return -1;
+    }
+    const auto [entry, is_new] = middles_.emplace(edge, static_cast<int>(fill_.points.size()));
+    if (is_new) {
+      addPoint((at(a) + at(b)) / 2.0);
+    }
+    return entry->second;
+  }
+
+  void splitAtCenter(const Eigen::Vector3i& f) {
+    const int center = static_cast<int>(fill_.points.size());
+    addPoint((at(f[0]) + at(f[1]) + at(f[2])) / 3.0);
+    for (int k = 0; k < 3; ++k) {
+      fill_.faces.emplace_back(f[k], f[(k + 1) % 3], center);
+    }
+  }
+
+  /// @param m  new points on the edges 01, 12 and 20, or -1
+  void splitFace(const Eigen::Vector3i& f, const Eigen::Vector3i& m) {
+    const int count = static_cast<int>((m.array() >= 0).count());
+    if (count == 0) {
+      fill_.faces.push_back(f);
+    } else if (count == 3) {
+      for (int k = 0; k < 3; ++k) {
+        fill_.faces.emplace_back(f[k], m[k], m[(k + 2) % 3]);
+      }
+      fill_.faces.push_back(m);
+    } else {
+      // Turned so that edge 01 is split and, where two are, edge 12 is the other.
+      int k = 0;
+      while (m[k] < 0 || (count == 2 && m[(k + 1) % 3] < 0)) {
+        ++k;
+      }
+      const int a = f[k];
+      const int b = f[(k + 1) % 3];
+      const int c = f[(k + 2) % 3];
+      if (count == 1) {
+        fill_.faces.emplace_back(a, m[k], c);
+        fill_.faces.emplace_back(m[k], b, c);
+      } else {
+        fill_.faces.emplace_back(m[k], b, m[(k + 1) % 3]);
+        fill_.faces.emplace_back(a, m[k], m[(k + 1) % 3]);
+        fill_.faces.emplace_back(a, m[(k + 1) % 3], c);
+      }
+    }
+  }
+
+  Vector3d at(int i) const { return fill_.points[static_cast<std::size_t>(i)]; }
+  void addPoint(const Vector3d& p) { fill_.points.push_back(p); }
+
+  FillMesh& fill_;
+  int rim_size_;
+  std::map<std::pair<int, int>, int> faces_at_edge_;
+  std::map<std::pair<int, int>, int> middles_;
+};
 
 FillMesh toFill(const Mesh& mesh) {
   FillMesh fill;
@@ -110,7 +196,9 @@ std::optional<FillMesh> meshed(std::span<const Vector3d> rim,
         std::back_inserter(new_vertices),
         CGAL::parameters::density_control_factor(std::sqrt(2.0) * meanEdge(rim) / edge_mm));
   }
-  return toFill(mesh);
+  FillMesh fill = toFill(mesh);
+  ChordSplitter(fill, count).split();
+  return fill;
 }
 
 Vector3d areaVector(const NamedTriangle& t) {

@@ -9,15 +9,16 @@
 
 namespace tarsus {
 
-/// A disc of triangles that fills a rim; counter-clockwise along the rim.
+/// A disc of triangles that fills a rim; counter-clockwise along the rim. No edge inside joins two
+/// points of the rim: each face has a point of its own (to be marked), and no edge can be one that
+/// the surface has already.
 struct FillMesh {
   std::vector<Eigen::Vector3d> points;  ///< the rim first, in its order [mm]
   std::vector<Eigen::Vector3i> faces;
 };
 
-/// How a filling is begun: by the triangulation with the least bends, whose first edges join
-/// points of the rim, or by a fan about the middle, which has no such edges (they may exist
-/// already on the other side of a narrow bridge).
+/// How a filling is begun: by the triangulation with the least bends, or by a fan about the middle,
+/// which fills where the first finds nothing.
 enum class FillStart { Triangulation, Fan };
 
 /// Fills a rim with triangles whose edges are about `edge_mm` long. Not smooth yet.
