@@ -45,7 +45,7 @@ struct RayOnSurface {
 /// measured point couples the two (a reading too deep on an oblique surface meets another normal),
 /// which drags poses by tenths of a millimetre; where the ray meets the surface, neither depends
 /// on the error. Ours.
-/// @return nothing where the field is unknown or the surface steeper than 66 degrees to the ray
+/// @return nothing where the field is unknown or the surface steeper than 73 degrees to the ray
 [[nodiscard]] std::optional<RayOnSurface> meetSurface(const TsdfVolume& field,
                                                       const Eigen::Isometry3f& scan_from_camera,
                                                       const Eigen::Vector3f& p_camera);

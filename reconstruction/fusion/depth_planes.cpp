@@ -47,9 +47,9 @@ double slopeLimit(const DepthPlaneOptions& options) {
 struct RowSums {
   explicit RowSums(std::size_t width)
       : count(width), uu(width), uv(width), vv(width), bu(width), bv(width) {}
-  void clear() {
+  void clear(int begin, int end) {
     for (auto* sums : {&count, &uu, &uv, &vv, &bu, &bv}) {
-      std::fill(sums->begin(), sums->end(), 0.0F);
+      std::fill(sums->begin() + begin, sums->begin() + end, 0.0F);
     }
   }
   std::vector<float> count, uu, uv, vv, bu, bv;
@@ -233,15 +233,18 @@ class PlaneFitter {
   /// @return how many pixels got a plane
   int fitRows(int first_row, int end_row) {
     const Intrinsics& k = result_.intrinsics;
-    const int end_u = k.width - kRadius;
     RowSums sums(static_cast<std::size_t>(k.width));
     int valid = 0;
     for (int v = std::max(first_row, kRadius); v < std::min(end_row, k.height - kRadius); ++v) {
-      sums.clear();
-      for (const Offset& offset : kHalfWindow) {
-        addPairs(sums, rowsFor(offset, v), kRadius, end_u);
+      const auto [begin_u, end_u] = measuredColumns(v);
+      if (begin_u >= end_u) {
+        continue;
       }
-      solveRow(sums, frameFor(v), planesFor(v), kRadius, end_u);
+      sums.clear(begin_u, end_u);
+      for (const Offset& offset : kHalfWindow) {
+        addPairs(sums, rowsFor(offset, v), begin_u, end_u);
+      }
+      solveRow(sums, frameFor(v), planesFor(v), begin_u, end_u);
       const auto row = result_.quality.begin() + static_cast<std::ptrdiff_t>(result_.index(0, v));
       valid += static_cast<int>(
           std::count_if(row, row + k.width, [](float quality) { return quality > 0.0F; }));
@@ -250,6 +253,19 @@ class PlaneFitter {
   }
 
  private:
+  /// From the first to behind the last pixel of the row that has depth and a whole window.
+  [[nodiscard]] std::pair<int, int> measuredColumns(int v) const {
+    const float* const row = z_.data() + result_.index(0, v);
+    int begin = kRadius;
+    int end = result_.intrinsics.width - kRadius;
+    while (begin < end && row[begin] <= 0.0F) {
+      ++begin;
+    }
+    while (end > begin && row[end - 1] <= 0.0F) {
+      --end;
+    }
+    return {begin, end};
+  }
   [[nodiscard]] PairRows rowsFor(Offset offset, int v) const {
     const auto width = static_cast<std::ptrdiff_t>(result_.intrinsics.width);
     const std::ptrdiff_t middle = v * width;

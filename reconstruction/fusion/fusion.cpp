@@ -17,17 +17,6 @@ constexpr std::size_t kFramesAtOnce = 8;
 /// How far from the first stage's surface the second stage may find its own, beyond its band.
 constexpr double kSurfaceMayMove_mm = 3.0;
 
-/// Every how many pixels a point is taken: all of the scene, or only the foot.
-constexpr int kSceneStride_px = 3;
-constexpr int kFootStride_px = 2;
-
-void keepWithin(const TsdfVolume& volume, const RigidTransform& pose, FramePoints& points) {
-  const Eigen::Isometry3f scan_from_camera = pose.cast<float>();
-  std::erase_if(points, [&](const AlignmentPoint& point) {
-    return !volume.covers(scan_from_camera * point.p_camera);
-  });
-}
-
 /// Reads, packs and prepares the next frame while the caller works on this one.
 class PreparedFrames {
  public:
@@ -150,11 +139,11 @@ Expected<TrackedScan> placeScan(FrameSource& frames,
   return scan;
 }
 
-Expected<FusedScan> fuseScan(const ScanArchive& frames,
-                             const Trajectory& trajectory,
-                             std::span<const Eigen::Vector3f> near,
-                             const TsdfOptions& options,
-                             const Job& job) {
+Expected<TsdfVolume> fuseScan(const ScanArchive& frames,
+                              const Trajectory& trajectory,
+                              std::span<const Eigen::Vector3f> near,
+                              const TsdfOptions& options,
+                              const Job& job) {
   TARSUS_REQUIRE(static_cast<std::size_t>(frames.frameCount()) == trajectory.size(),
                  "one pose for each frame");
   std::vector<int> tracked;
@@ -166,10 +155,9 @@ Expected<FusedScan> fuseScan(const ScanArchive& frames,
   if (tracked.empty()) {
     return fail(ErrorCode::ScanEmpty, "no frame has a pose");
   }
-  FusedScan fused{.volume = TsdfVolume(options),
-                  .points = std::vector<FramePoints>(trajectory.size())};
+  TsdfVolume volume(options);
   if (!near.empty()) {
-    fused.volume.confineTo(near, options.weighting.delta_mm + kSurfaceMayMove_mm);
+    volume.confineTo(near, options.weighting.delta_mm + kSurfaceMayMove_mm);
   }
   const DepthPlaneOptions plane_options{.min_depth_mm = options.min_depth_mm,
                                         .max_depth_mm = options.max_depth_mm,
@@ -183,26 +171,19 @@ Expected<FusedScan> fuseScan(const ScanArchive& frames,
       const RgbdFrame frame = frames.frame(tracked[first + static_cast<std::size_t>(k)]);
       planes[static_cast<std::size_t>(k)] =
           fitDepthPlanes(frames.camera().depth, frame.depth, plane_options);
-      const auto i = static_cast<std::size_t>(tracked[first + static_cast<std::size_t>(k)]);
-      fused.points[i] = alignmentPoints(planes[static_cast<std::size_t>(k)],
-                                        near.empty() ? kSceneStride_px : kFootStride_px);
-      if (!near.empty()) {
-        keepWithin(fused.volume, *trajectory[i].scan_from_camera, fused.points[i]);
-      }
-      fused.points[i].shrink_to_fit();
     });
     for (std::size_t k = 0; k < planes.size(); ++k) {
       const auto i = static_cast<std::size_t>(tracked[first + k]);
       const ColorImage none;
-      fused.volume.integrate(frames.camera(),
-                             planes[k],
-                             options.with_color ? frames.color(tracked[first + k]) : none,
-                             *trajectory[i].scan_from_camera);
+      volume.integrate(frames.camera(),
+                       planes[k],
+                       options.with_color ? frames.color(tracked[first + k]) : none,
+                       *trajectory[i].scan_from_camera);
     }
     job.report("fusion",
                static_cast<double>(first + planes.size()) / static_cast<double>(tracked.size()));
   }
-  return fused;
+  return volume;
 }
 
 }  // namespace tarsus

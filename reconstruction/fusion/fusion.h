@@ -51,19 +51,13 @@ struct TrackedScan {
                                               const TrackingOptions& options,
                                               const Job& job);
 
-/// A scan after its second pass.
-struct FusedScan {
-  TsdfVolume volume;
-  std::vector<FramePoints> points;  ///< per entry of the trajectory, within the volume
-};
-
 /// Second stage: fuses all tracked frames anew with a narrow weighting, for sharp edges.
 /// @param near  if there are any points [mm, scan frame], only what lies about them
 /// @errors ScanEmpty where no frame has a pose, Cancelled
-[[nodiscard]] Expected<FusedScan> fuseScan(const ScanArchive& frames,
-                                           const Trajectory& trajectory,
-                                           std::span<const Eigen::Vector3f> near,
-                                           const TsdfOptions& options,
-                                           const Job& job);
+[[nodiscard]] Expected<TsdfVolume> fuseScan(const ScanArchive& frames,
+                                            const Trajectory& trajectory,
+                                            std::span<const Eigen::Vector3f> near,
+                                            const TsdfOptions& options,
+                                            const Job& job);
 
 }  // namespace tarsus

@@ -1,308 +1,69 @@
 #include "reconstruction/fusion/pose_refinement.h"
 
-#include "reconstruction/base/parallel.h"
-
-#include <Eigen/Cholesky>
+#include "reconstruction/fusion/pose_adjustment.h"
+#include "reconstruction/fusion/vertex_view.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <unordered_map>
 
 namespace tarsus {
 namespace {
 
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
+/// Readings of a frame that take part, at most: more say little new, since neighbouring pixels err
+/// alike.
+constexpr std::size_t kMostVertices = 40'000;
 
-/// Rotations are measured by how far they move a point this far from the centre.
-constexpr double kLever_mm = 100.0;
-/// Patches are cubes of this side; within one, the field's shape is believed.
-constexpr float kPatch_mm = 8.0F;
-/// Neighbouring frames keep their motion in directions that the surface leaves free: this share of
-/// what a frame's points say about a direction on average. Ours.
-constexpr double kSmoothness = 1e-3;
-constexpr int kMaxIterations = 120;
-constexpr double kRelativeResidual = 1e-4;
-
-/// What the points of one frame on one patch add up to.
-struct PatchTerm {
-  int patch = 0;
-  float weight = 0.0F;
-  float residual = 0.0F;                 ///< weighted sum
-  Vector6f jacobian = Vector6f::Zero();  ///< weighted sum
+/// Poses of the tracked frames, and which entries of the trajectory they are.
+struct TrackedPoses {
+  std::vector<std::size_t> entries;
+  std::vector<RigidTransform> poses;
 };
 
-struct FrameTerm {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  std::vector<PatchTerm> patches;
-  double squares = 0.0;
-  double weight = 0.0;
-};
-
-/// Patches are numbered by their cell, packed into one integer.
-std::int64_t cellOf(const Eigen::Vector3f& p) {
-  const Eigen::Vector3i cell = (p / kPatch_mm).array().floor().cast<int>() + (1 << 20);
-  return (std::int64_t{cell.x()} << 42) | (std::int64_t{cell.y()} << 21) | std::int64_t{cell.z()};
+TrackedPoses trackedPoses(const Trajectory& trajectory) {
+  TrackedPoses tracked;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    if (trajectory[i].scan_from_camera) {
+      tracked.entries.push_back(i);
+      tracked.poses.push_back(*trajectory[i].scan_from_camera);
+    }
+  }
+  return tracked;
 }
 
-/// A rigid motion of the scan about its centre, from 3 turns (times the lever) and 3 shifts.
-RigidTransform motionOf(const Vector6d& step, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d rotation = step.head<3>() / kLever_mm;
-  const double angle = rotation.norm();
-  RigidTransform motion = RigidTransform::Identity();
-  if (angle > 0.0) {
-    motion.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+Expected<PoseRefinementResult> adjust(const Trajectory& trajectory,
+                                      const TrackedPoses& tracked,
+                                      const PoseRefinementOptions& options,
+                                      const Job& job,
+                                      PoseAdjustment& adjustment) {
+  PoseRefinementResult result{.trajectory = trajectory};
+  double kernel_mm = options.kernel_mm;
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    if (job.stopped()) {
+      return fail(ErrorCode::Cancelled);
+    }
+    const double largest_mm = adjustment.sweep(kernel_mm);
+    kernel_mm = std::max(0.5 * kernel_mm, options.least_kernel_mm);
+    ++result.sweeps;
+    job.report("refine poses", static_cast<double>(sweep + 1) / options.sweeps);
+    if (largest_mm < options.stop_step_mm) {
+      break;
+    }
   }
-  motion.translation() = center + step.tail<3>() - motion.linear() * center;
-  return motion;
+  const RigidTransform anchor = tracked.poses.front() * adjustment.poses().front().inverse();
+  for (std::size_t k = 0; k < tracked.entries.size(); ++k) {
+    result.trajectory[tracked.entries[k]].scan_from_camera = anchor * adjustment.poses()[k];
+  }
+  result.trajectory[tracked.entries.front()].scan_from_camera = tracked.poses.front();
+  result.refined_from_field = anchor;
+  return result;
 }
 
-class PoseAdjustment {
- public:
-  PoseAdjustment(const TsdfVolume& field,
-                 std::vector<std::span<const AlignmentPoint>> points,
-                 std::vector<RigidTransform> poses)
-      : field_(field),
-        points_(std::move(points)),
-        poses_(std::move(poses)),
-        terms_(poses_.size()),
-        cells_(poses_.size()) {
-    center_ = centerOfPoints();
+Eigen::Vector3d centerOf(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    sum += p.cast<double>();
   }
-
-  [[nodiscard]] const std::vector<RigidTransform>& poses() const { return poses_; }
-  [[nodiscard]] double residual() const { return residual_; }
-
-  /// @return the largest motion of a frame [mm at the lever]
-  double sweep(double kernel_mm) {
-    parallelFor(static_cast<int>(poses_.size()), [&](int i) {
-      linearise(static_cast<std::size_t>(i), static_cast<float>(kernel_mm));
-    });
-    numberPatches();
-    const std::vector<Vector6d> steps = solve();
-    double largest = 0.0;
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      poses_[i] = motionOf(steps[i], center_) * poses_[i];
-      largest = std::max(largest, (steps[i] - steps[0]).norm());
-    }
-    updateHeights(steps);
-    return largest;
-  }
-
- private:
-  [[nodiscard]] Eigen::Vector3d centerOfPoints() const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double count = 0.0;
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      for (const AlignmentPoint& point : points_[i]) {
-        sum += poses_[i] * point.p_camera.cast<double>();
-        count += 1.0;
-      }
-    }
-    return sum / std::max(1.0, count);
-  }
-
-  [[nodiscard]] float heightOf(std::int64_t cell) const {
-    const auto found = numbers_.find(cell);
-    return found == numbers_.end() ? 0.0F : heights_[static_cast<std::size_t>(found->second)];
-  }
-
-  void linearise(std::size_t i, float kernel) {
-    struct Keyed {
-      std::int64_t cell;
-      float weight, residual;
-      Vector6f jacobian;
-    };
-    const Eigen::Isometry3f pose = poses_[i].cast<float>();
-    const Eigen::Vector3f center = center_.cast<float>();
-    constexpr auto kPerLever = static_cast<float>(1.0 / kLever_mm);
-    std::vector<Keyed> keyed;
-    keyed.reserve(points_[i].size());
-    for (const AlignmentPoint& point : points_[i]) {
-      const std::optional<RayOnSurface> hit = meetSurface(field_, pose, point.p_camera);
-      if (!hit) {
-        continue;
-      }
-      const std::int64_t cell = cellOf(hit->p);
-      const float off = (hit->residual_mm - heightOf(cell)) / kernel;
-      const float rest = 1.0F - off * off;
-      if (rest > 0.0F) {
-        Keyed entry{.cell = cell,
-                    .weight = certaintyAt(point.p_camera.z()) * hit->cosine * rest * rest,
-                    .residual = hit->residual_mm,
-                    .jacobian = {}};
-        entry.jacobian.head<3>() = (hit->p - center).cross(hit->normal) * kPerLever;
-        entry.jacobian.tail<3>() = hit->normal;
-        keyed.push_back(entry);
-      }
-    }
-    std::stable_sort(
-        keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) { return a.cell < b.cell; });
-    FrameTerm term;
-    std::vector<std::int64_t>& cells = cells_[i];
-    cells.clear();
-    for (const Keyed& entry : keyed) {
-      if (cells.empty() || cells.back() != entry.cell) {
-        cells.push_back(entry.cell);
-        term.patches.emplace_back();
-      }
-      PatchTerm& patch = term.patches.back();
-      const Vector6f weighted = entry.weight * entry.jacobian;
-      patch.weight += entry.weight;
-      patch.residual += entry.weight * entry.residual;
-      patch.jacobian += weighted;
-      term.hessian.selfadjointView<Eigen::Upper>().rankUpdate(entry.jacobian.cast<double>(),
-                                                              static_cast<double>(entry.weight));
-      term.gradient += static_cast<double>(entry.residual) * weighted.cast<double>();
-    }
-    term.hessian = Matrix6d(term.hessian.selfadjointView<Eigen::Upper>());
-    terms_[i] = std::move(term);
-  }
-
-  void numberPatches() {
-    numbers_.clear();
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      for (std::size_t k = 0; k < terms_[i].patches.size(); ++k) {
-        const auto number = static_cast<int>(numbers_.size());
-        terms_[i].patches[k].patch = numbers_.try_emplace(cells_[i][k], number).first->second;
-      }
-    }
-    patch_weights_.assign(numbers_.size(), 0.0);
-    patch_residuals_.assign(numbers_.size(), 0.0);
-    for (const FrameTerm& term : terms_) {
-      for (const PatchTerm& patch : term.patches) {
-        patch_weights_[static_cast<std::size_t>(patch.patch)] += static_cast<double>(patch.weight);
-        patch_residuals_[static_cast<std::size_t>(patch.patch)] +=
-            static_cast<double>(patch.residual);
-      }
-    }
-    // The poses' own part of the gradient, with the patches at their best heights.
-    double trace = 0.0;
-    for (FrameTerm& term : terms_) {
-      for (const PatchTerm& patch : term.patches) {
-        const auto number = static_cast<std::size_t>(patch.patch);
-        term.gradient -=
-            patch.jacobian.cast<double>() * (patch_residuals_[number] / patch_weights_[number]);
-      }
-      trace += term.hessian.trace();
-    }
-    smoothness_ = kSmoothness * trace / (6.0 * static_cast<double>(terms_.size()));
-  }
-
-  /// Reduced normal equations times x.
-  [[nodiscard]] std::vector<Vector6d> multiplied(const std::vector<Vector6d>& x) const {
-    std::vector<double> patch_motion(patch_weights_.size(), 0.0);
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      const Vector6f step = x[i].cast<float>();
-      for (const PatchTerm& patch : terms_[i].patches) {
-        patch_motion[static_cast<std::size_t>(patch.patch)] +=
-            static_cast<double>(patch.jacobian.dot(step));
-      }
-    }
-    for (std::size_t b = 0; b < patch_motion.size(); ++b) {
-      patch_motion[b] /= patch_weights_[b];
-    }
-    std::vector<Vector6d> y(x.size());
-    parallelFor(static_cast<int>(x.size()), [&](int frame) {
-      const auto i = static_cast<std::size_t>(frame);
-      Vector6d sum = terms_[i].hessian * x[i];
-      for (const PatchTerm& patch : terms_[i].patches) {
-        sum -= patch.jacobian.cast<double>() * patch_motion[static_cast<std::size_t>(patch.patch)];
-      }
-      if (i > 0) {
-        sum += smoothness_ * (x[i] - x[i - 1]);
-      }
-      if (i + 1 < x.size()) {
-        sum += smoothness_ * (x[i] - x[i + 1]);
-      }
-      y[i] = sum;
-    });
-    return y;
-  }
-
-  static double dot(const std::vector<Vector6d>& a, const std::vector<Vector6d>& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      sum += a[i].dot(b[i]);
-    }
-    return sum;
-  }
-
-  /// Conjugate gradients, preconditioned by each frame's own 6 x 6 block. All frames may move
-  /// together at no cost; the caller puts the first one back.
-  [[nodiscard]] std::vector<Vector6d> solve() const {
-    const std::size_t n = terms_.size();
-    std::vector<Eigen::LDLT<Matrix6d>> blocks(n);
-    std::vector<Vector6d> r(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      blocks[i].compute(terms_[i].hessian + 2.0 * smoothness_ * Matrix6d::Identity());
-      r[i] = -terms_[i].gradient;
-    }
-    const auto precondition = [&](const std::vector<Vector6d>& residual) {
-      std::vector<Vector6d> z(n);
-      for (std::size_t i = 0; i < n; ++i) {
-        z[i] = blocks[i].solve(residual[i]);
-      }
-      return z;
-    };
-    std::vector<Vector6d> x(n, Vector6d::Zero());
-    std::vector<Vector6d> z = precondition(r);
-    std::vector<Vector6d> direction = z;
-    double rz = dot(r, z);
-    const double enough = kRelativeResidual * kRelativeResidual * rz;
-    for (int k = 0; k < kMaxIterations && rz > enough && rz > 0.0; ++k) {
-      const std::vector<Vector6d> a_direction = multiplied(direction);
-      const double curvature = dot(direction, a_direction);
-      if (!(curvature > 0.0)) {
-        break;
-      }
-      const double alpha = rz / curvature;
-      for (std::size_t i = 0; i < n; ++i) {
-        x[i] += alpha * direction[i];
-        r[i] -= alpha * a_direction[i];
-      }
-      z = precondition(r);
-      const double next = dot(r, z);
-      const double beta = next / rz;
-      rz = next;
-      for (std::size_t i = 0; i < n; ++i) {
-        direction[i] = z[i] + beta * direction[i];
-      }
-    }
-    return x;
-  }
-
-  void updateHeights(const std::vector<Vector6d>& steps) {
-    std::vector<double> sums = patch_residuals_;
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      const Vector6f step = steps[i].cast<float>();
-      for (const PatchTerm& patch : terms_[i].patches) {
-        sums[static_cast<std::size_t>(patch.patch)] +=
-            static_cast<double>(patch.jacobian.dot(step));
-      }
-    }
-    heights_.resize(sums.size());
-    for (std::size_t b = 0; b < sums.size(); ++b) {
-      heights_[b] = static_cast<float>(sums[b] / patch_weights_[b]);
-    }
-  }
-
-  const TsdfVolume& field_;
-  std::vector<std::span<const AlignmentPoint>> points_;
-  std::vector<RigidTransform> poses_;
-  Eigen::Vector3d center_;
-  std::vector<FrameTerm> terms_;
-  std::vector<std::vector<std::int64_t>> cells_;  ///< of each frame's patches
-  std::unordered_map<std::int64_t, int> numbers_;
-  std::vector<double> patch_weights_;
-  std::vector<double> patch_residuals_;
-  std::vector<float> heights_;
-  double smoothness_ = 0.0;
-  double residual_ = 0.0;
-};
+  return sum / std::max(1.0, static_cast<double>(points.size()));
+}
 
 }  // namespace
 
@@ -311,40 +72,61 @@ Expected<PoseRefinementResult> refinePoses(const TsdfVolume& field,
                                            const Trajectory& trajectory,
                                            const PoseRefinementOptions& options,
                                            const Job& job) {
-  PoseRefinementResult result{.trajectory = trajectory};
-  std::vector<RigidTransform> poses;
-  std::vector<std::span<const AlignmentPoint>> tracked_points;
-  std::vector<std::size_t> tracked;
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    if (trajectory[i].scan_from_camera) {
-      tracked.push_back(i);
-      poses.push_back(*trajectory[i].scan_from_camera);
-      tracked_points.emplace_back(points[i]);
+  TARSUS_REQUIRE(points.size() == trajectory.size(), "points for each entry of the trajectory");
+  const TrackedPoses tracked = trackedPoses(trajectory);
+  if (tracked.poses.size() < 2) {
+    return PoseRefinementResult{.trajectory = trajectory};
+  }
+  const auto observe = [&](std::size_t i, const RigidTransform& pose) {
+    const Eigen::Isometry3f scan_from_camera = pose.cast<float>();
+    std::vector<PoseObservation> seen;
+    seen.reserve(points[tracked.entries[i]].size());
+    for (const AlignmentPoint& point : points[tracked.entries[i]]) {
+      if (const auto hit = meetSurface(field, scan_from_camera, point.p_camera)) {
+        seen.push_back({.p = hit->p,
+                        .normal = hit->normal,
+                        .residual_mm = hit->residual_mm,
+                        .weight = certaintyAt(point.p_camera.z()) * hit->cosine});
+      }
     }
+    return seen;
+  };
+  std::vector<Eigen::Vector3f> first_points;
+  for (const AlignmentPoint& point : points[tracked.entries.front()]) {
+    first_points.push_back((tracked.poses.front() * point.p_camera.cast<double>()).cast<float>());
   }
-  if (poses.size() < 2) {
-    return result;
+  PoseAdjustment adjustment(tracked.poses, centerOf(first_points), observe);
+  return adjust(trajectory, tracked, options, job, adjustment);
+}
+
+Expected<PoseRefinementResult> refinePoses(const TriangleMesh& surface,
+                                           const ScanArchive& frames,
+                                           const Trajectory& trajectory,
+                                           const PoseRefinementOptions& options,
+                                           const Job& job) {
+  TARSUS_REQUIRE(static_cast<std::size_t>(frames.frameCount()) == trajectory.size(),
+                 "one pose for each frame");
+  const TrackedPoses tracked = trackedPoses(trajectory);
+  if (tracked.poses.size() < 2) {
+    return PoseRefinementResult{.trajectory = trajectory};
   }
-  PoseAdjustment adjustment(field, tracked_points, poses);
-  double kernel = options.kernel_mm;
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-    if (job.stopped()) {
-      return fail(ErrorCode::Cancelled);
+  const std::size_t stride = std::max<std::size_t>(1, surface.vertices.size() / kMostVertices);
+  const auto observe = [&](std::size_t i, const RigidTransform& pose) {
+    const RgbdFrame frame = frames.frame(static_cast<int>(tracked.entries[i]));
+    const VertexView view(frames.camera().depth, frame.depth, pose, options.max_view_angle_deg);
+    std::vector<PoseObservation> seen;
+    for (std::size_t v = 0; v < surface.vertices.size(); v += stride) {
+      if (const auto reading = view.read(surface.vertices[v], surface.normals[v])) {
+        seen.push_back({.p = surface.vertices[v],
+                        .normal = surface.normals[v],
+                        .residual_mm = reading->height_mm,
+                        .weight = certaintyAt(reading->depth_mm) * reading->cosine});
+      }
     }
-    const double largest = adjustment.sweep(kernel);
-    kernel = std::max(0.5 * kernel, options.least_kernel_mm);
-    ++result.sweeps;
-    if (largest < options.stop_step_mm) {
-      break;
-    }
-  }
-  const RigidTransform anchor = poses.front() * adjustment.poses().front().inverse();
-  for (std::size_t k = 0; k < tracked.size(); ++k) {
-    result.trajectory[tracked[k]].scan_from_camera = anchor * adjustment.poses()[k];
-  }
-  result.trajectory[tracked.front()].scan_from_camera = poses.front();
-  result.refined_from_field = anchor;
-  return result;
+    return seen;
+  };
+  PoseAdjustment adjustment(tracked.poses, centerOf(surface.vertices), observe);
+  return adjust(trajectory, tracked, options, job, adjustment);
 }
 
 }  // namespace tarsus

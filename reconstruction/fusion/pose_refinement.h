@@ -10,17 +10,17 @@ namespace tarsus {
 
 struct PoseRefinementOptions {
   int sweeps = 3;
-  double kernel_mm = 3.0;        ///< Tukey's, of the first sweep; halved with each, down to ...
-  double least_kernel_mm = 1.2;  ///< ... three times the noise of a pixel
-  double stop_step_mm = 0.01;    ///< ends when no frame moves points by more
+  double kernel_mm = 4.0;            ///< Tukey's, of the first sweep; halved with each, down to ...
+  double least_kernel_mm = 3.0;      ///< ... what keeps oblique readings, whose noise is 1 mm
+  double stop_step_mm = 0.01;        ///< ends when no frame moves points by more
+  double max_view_angle_deg = 72.0;  ///< of readings at a surface's vertices
 };
 
 struct PoseRefinementResult {
   Trajectory trajectory;  ///< first tracked pose as before, exactly
-  /// The refined scan frame is pinned to the first camera, and the field was made around them all.
+  /// The refined scan frame is pinned to the first camera; the field, or surface, was made around
+  /// all of them.
   RigidTransform refined_from_field = RigidTransform::Identity();
-  double rms_motion_mm = 0.0;  ///< how far points 100 mm about the scan's centre moved, RMS
-  double residual_mm = 0.0;    ///< RMS of point to surface, at the end
   int sweeps = 0;
 };
 
@@ -34,6 +34,16 @@ struct PoseRefinementResult {
 /// @errors Cancelled
 [[nodiscard]] Expected<PoseRefinementResult> refinePoses(const TsdfVolume& field,
                                                          std::span<const FramePoints> points,
+                                                         const Trajectory& trajectory,
+                                                         const PoseRefinementOptions& options,
+                                                         const Job& job);
+
+/// The same against a surface: each frame is read at the surface's vertices. A surface whose
+/// vertices were placed (refineSurface) has not the fat that a volume has on convex skin.
+/// @param surface  with normals, scan frame [mm]
+/// @errors Cancelled
+[[nodiscard]] Expected<PoseRefinementResult> refinePoses(const TriangleMesh& surface,
+                                                         const ScanArchive& frames,
                                                          const Trajectory& trajectory,
                                                          const PoseRefinementOptions& options,
                                                          const Job& job);

@@ -2,6 +2,7 @@
 
 #include "reconstruction/base/parallel.h"
 #include "reconstruction/fusion/align.h"
+#include "reconstruction/fusion/surface_cleanup.h"
 #include "reconstruction/fusion/vertex_view.h"
 
 namespace tarsus {
@@ -64,6 +65,7 @@ class SurfaceObserver {
     }
   }
 
+  [[nodiscard]] int frameCount() const { return static_cast<int>(tracked_.size()); }
   [[nodiscard]] std::size_t batches() const {
     return (tracked_.size() + kFramesAtOnce - 1) / kFramesAtOnce;
   }
@@ -166,6 +168,17 @@ std::vector<Rgb8> meanColors(const std::vector<ColorSums>& sums) {
   return colors;
 }
 
+ExtractedSurface withoutHardlySeen(const ExtractedSurface& surface, int least_frames) {
+  std::vector<std::uint8_t> keep(surface.mesh.faces.size());
+  const auto seen = [&](int vertex) {
+    return surface.observations[static_cast<std::size_t>(vertex)] >= least_frames;
+  };
+  std::ranges::transform(surface.mesh.faces, keep.begin(), [&](const Eigen::Vector3i& f) {
+    return static_cast<std::uint8_t>(seen(f[0]) && seen(f[1]) && seen(f[2]) ? 1 : 0);
+  });
+  return keepFaces(surface, keep);
+}
+
 }  // namespace
 
 Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
@@ -198,7 +211,8 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
       surface.colors = meanColors(colors);
     }
   }
-  return surface;
+  const int least = static_cast<int>(options.least_share_of_frames * observer.frameCount());
+  return withoutHardlySeen(surface, std::clamp(least, 1, options.most_needed));
 }
 
 }  // namespace tarsus

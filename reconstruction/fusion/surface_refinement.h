@@ -12,6 +12,10 @@ struct SurfaceRefinementOptions {
   double kernel_mm = 2.5;  ///< Tukey's, of the first sweep; halved with each
   double max_view_angle_deg = 72.0;
   double prior_observations = 2.0;  ///< the volume's own opinion counts as so many frames
+  /// What fewer frames saw is taken away: this share of the tracked ones, but no more than
+  /// `most_needed` and no fewer than 1. Such places are grazed by all who see them.
+  double least_share_of_frames = 0.01;
+  int most_needed = 6;
 };
 
 /// Puts each vertex, along its normal, to where all frames that see it measured the surface.

@@ -203,11 +203,6 @@ void TsdfVolume::integrate(const RgbdCamera& camera,
   });
 }
 
-bool TsdfVolume::covers(const Eigen::Vector3f& p_scan) const {
-  const float side_mm = grid_->blocks.voxelSize() * static_cast<float>(kBlockSide);
-  return grid_->blocks.find((p_scan / side_mm).array().floor().cast<int>()) >= 0;
-}
-
 bool TsdfVolume::sample(const Eigen::Vector3f& p_scan, SdfSample& result) const {
   return grid_->blocks.sample(p_scan, result);
 }

@@ -82,8 +82,6 @@ class TsdfVolume {
                  const DepthPlanes& planes,
                  const ColorImage& color,
                  const RigidTransform& scan_from_camera);
-  /// Whether there is storage at this point.
-  [[nodiscard]] bool covers(const Eigen::Vector3f& p_scan) const;
   /// Trilinear value and gradient; false where one of the 8 corners was never observed.
   [[nodiscard]] bool sample(const Eigen::Vector3f& p_scan, SdfSample& result) const;
   /// Marching cubes over the cells whose 8 corners all have at least `min_weight`.

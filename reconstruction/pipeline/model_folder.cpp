@@ -26,6 +26,16 @@ json toJson(const Warnings& warnings) {
   return list;
 }
 
+json toJson(const std::vector<CutShare>& cut) {
+  json list = json::array();
+  for (const CutShare& share : cut) {
+    list.push_back({{"reason", nameOf(share.reason)},
+                    {"share_of_faces", share.share_of_faces},
+                    {"area_mm2", share.area_mm2}});
+  }
+  return list;
+}
+
 json toJson(const TsdfWeighting& weighting) {
   return {{"epsilon_mm", weighting.epsilon_mm},
           {"delta_mm", weighting.delta_mm},
@@ -47,6 +57,16 @@ json toJson(const ScanOptions& options) {
           {"tracking_coarse_delta_mm", options.tracking.coarse_delta_mm},
           {"lost_rmse_mm", options.tracking.lost_rmse_mm},
           {"lost_inlier_fraction", options.tracking.lost_inlier_fraction},
+          {"refinement_sweeps", options.refinement.sweeps},
+          {"refinement_sweeps_on_surface", options.refinement_sweeps_on_surface},
+          {"refinement_kernel_mm", options.refinement.kernel_mm},
+          {"refine_trajectory", options.refine_trajectory},
+          {"region", options.region ? json::parse(regionToJson(*options.region)) : json()},
+          {"surface_sweeps", options.surface_refinement.sweeps},
+          {"surface_kernel_mm", options.surface_refinement.kernel_mm},
+          {"surface_max_view_angle_deg", options.surface_refinement.max_view_angle_deg},
+          {"hole_max_perimeter_mm", options.holes.max_perimeter_mm},
+          {"hole_max_area_mm2", options.holes.max_area_mm2},
           {"keyframes_wanted", options.keyframes.target_count},
           {"vertex_spacing_px", options.color.vertex_spacing_px},
           {"max_vertices", options.color.max_vertices},
@@ -105,6 +125,9 @@ json toJson(const Reconstruction& r, const ScanOptions& options, std::string_vie
           {"vertices", r.model.mesh.vertices.size()},
           {"faces", r.model.mesh.faces.size()},
           {"holes", r.holes},
+          {"holes_closed", r.holes_closed},
+          {"closed_area_mm2", r.closed_area_mm2},
+          {"cut", toJson(r.cut)},
           {"unseen_fraction", r.unseen_fraction},
           {"keyframes", r.keyframes.size()},
           {"photometric_rmse_before", orNull(r.photometric_rmse_before)},

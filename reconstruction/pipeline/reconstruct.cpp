@@ -22,7 +22,10 @@ TexturedMesh withFusedColors(ExtractedSurface surface) {
   model.colors = std::move(surface.colors);
   model.sigma_mm = std::move(surface.sigma_mm);
   model.observations = std::move(surface.observations);
-  model.unseen.assign(model.mesh.vertices.size(), 0);
+  model.unseen.resize(model.mesh.vertices.size());
+  std::ranges::transform(model.observations, model.unseen.begin(), [](std::uint16_t frames) {
+    return static_cast<std::uint8_t>(frames == 0 ? 1 : 0);
+  });
   return withHash(std::move(model));
 }
 
@@ -85,46 +88,48 @@ class ScanReconstruction {
   }
 
   Expected<void> findFoot() {
-    if (!options_.keep_background) {
-      const ExtractedSurface scene = scan_->model.extractSurface(options_.min_weight);
-      ForegroundResult foreground = removeBackground(scene, scan_->trajectory, options_.background);
-      if (foreground.told_apart) {
-        const auto foot =
-            removeSmallComponents(foreground.surface, {.min_share_of_largest = kLeastShareOfFoot});
-        region_.emplace(scene.mesh, foot.mesh);
-      } else {
-        result_.warnings.push_back(
-            {"background_kept", "Foot and background could not be told apart; nothing was cut."});
+    const ExtractedSurface scene = scan_->model.extractSurface(options_.min_weight);
+    ExtractedSurface foot = options_.keep_background ? scene : withoutBackground(scene);
+    if (options_.region) {
+      auto inside = keepRegion(foot, *options_.region);
+      if (!inside) {
+        return tl::unexpected(inside.error());
       }
+      foot = std::move(*inside);
+    }
+    if (foot.mesh.faces.size() < scene.mesh.faces.size()) {
+      region_.emplace(scene.mesh, foot.mesh);
     }
     clock_.end("find foot", 0);
     return {};
+  }
+
+  ExtractedSurface withoutBackground(const ExtractedSurface& scene) {
+    ForegroundResult foreground = removeBackground(scene, scan_->trajectory, options_.background);
+    if (!foreground.told_apart) {
+      result_.warnings.push_back(
+          {"background_kept", "Foot and background could not be told apart; nothing was cut."});
+      return scene;
+    }
+    result_.cut = std::move(foreground.cut);
+    return removeSmallComponents(foreground.surface, {.min_share_of_largest = kLeastShareOfFoot});
   }
 
   Expected<void> refineOnCoarseField() {
     if (!mayMovePoses()) {
       return {};
     }
-    const auto moved = refineOn(scan_->model, options_.refinement);
+    auto moved =
+        refinePoses(scan_->model, scan_->points, scan_->trajectory, options_.refinement, job_);
     if (!moved) {
       return tl::unexpected(moved.error());
     }
+    scan_->trajectory = std::move(moved->trajectory);
     if (region_) {
-      region_->move(*moved);
+      region_->move(moved->refined_from_field);
     }
     clock_.end("refine", result_.frames_total);
     return {};
-  }
-
-  /// Moves the poses until the frames agree on the field.
-  /// @return refined_from_field
-  Expected<RigidTransform> refineOn(const TsdfVolume& field, const PoseRefinementOptions& options) {
-    auto refined = refinePoses(field, scan_->points, scan_->trajectory, options, job_);
-    if (!refined) {
-      return tl::unexpected(refined.error());
-    }
-    scan_->trajectory = std::move(refined->trajectory);
-    return refined->refined_from_field;
   }
 
   /// Second stage: all frames anew into a fine volume, its surface, and that where the frames see
@@ -133,13 +138,12 @@ class ScanReconstruction {
     TsdfOptions volume_options = options_.surface;
     volume_options.with_color = false;  // the vertices get theirs straight from the frames
     const auto near = region_ ? std::span(region_->points()) : std::span<const Eigen::Vector3f>();
-    auto fused = fuseScan(scan_->archive, scan_->trajectory, near, volume_options, job_);
-    if (!fused) {
-      return tl::unexpected(fused.error());
+    auto volume = fuseScan(scan_->archive, scan_->trajectory, near, volume_options, job_);
+    if (!volume) {
+      return tl::unexpected(volume.error());
     }
-    scan_->points = std::move(fused->points);
     clock_.end("fuse", result_.frames_total);
-    surface_ = fused->volume.extractSurface(options_.min_weight);
+    surface_ = volume->extractSurface(options_.min_weight);
     if (surface_.mesh.faces.empty()) {
       return fail(ErrorCode::SurfaceEmpty);
     }
@@ -148,27 +152,41 @@ class ScanReconstruction {
     }
     surface_ = removeSmallComponents(
         surface_, {.min_share_of_largest = options_.keep_background ? 0.0 : kLeastShareOfFoot});
-    if (mayMovePoses()) {
-      PoseRefinementOptions last = options_.refinement;
-      last.sweeps = options_.refinement_sweeps_on_surface;
-      last.kernel_mm = last.least_kernel_mm;
-      const auto moved = refineOn(fused->volume, last);
-      if (!moved) {
-        return tl::unexpected(moved.error());
-      }
-      move(*moved, surface_);
-    }
     clock_.end("surface", 0);
     return placeVertices();
   }
 
+  /// Vertices and poses in turn, each from what the frames say about the other.
   Expected<void> placeVertices() {
+    SurfaceRefinementOptions first = options_.surface_refinement;
+    if (mayMovePoses()) {
+      first.sweeps = 1;
+      auto placed = refineSurface(surface_, scan_->archive, scan_->trajectory, first, job_);
+      if (!placed) {
+        return tl::unexpected(placed.error());
+      }
+      surface_ = std::move(*placed);
+      PoseRefinementOptions last = options_.refinement;
+      last.sweeps = options_.refinement_sweeps_on_surface;
+      last.kernel_mm = last.least_kernel_mm;
+      auto moved = refinePoses(surface_.mesh, scan_->archive, scan_->trajectory, last, job_);
+      if (!moved) {
+        return tl::unexpected(moved.error());
+      }
+      scan_->trajectory = std::move(moved->trajectory);
+      move(moved->refined_from_field, surface_);
+    }
     auto refined = refineSurface(
         std::move(surface_), scan_->archive, scan_->trajectory, options_.surface_refinement, job_);
     if (!refined) {
       return tl::unexpected(refined.error());
     }
-    surface_ = std::move(*refined);
+    surface_ = removeSmallComponents(
+        *refined, {.min_share_of_largest = options_.keep_background ? 0.0 : kLeastShareOfFoot});
+    ClosedSurface closed = closeSmallHoles(surface_, options_.holes);
+    surface_ = std::move(closed.surface);
+    result_.holes_closed = closed.holes_closed;
+    result_.closed_area_mm2 = closed.closed_area_mm2;
     result_.holes = countHoles(surface_.mesh);
     result_.trajectory = std::move(scan_->trajectory);
     scan_.reset();

@@ -6,6 +6,8 @@
 #include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_refinement.h"
 #include "reconstruction/pipeline/background.h"
+#include "reconstruction/pipeline/hole_closing.h"
+#include "reconstruction/pipeline/region_of_interest.h"
 #include "reconstruction/scene/mesh.h"
 #include "reconstruction/texture/color_map.h"
 #include "reconstruction/texture/keyframes.h"
@@ -29,6 +31,8 @@ struct ScanOptions {
   TsdfOptions surface;
   SurfaceRefinementOptions surface_refinement;
   BackgroundOptions background;
+  std::optional<RegionOfInterest> region;  ///< nothing outside is kept
+  HoleOptions holes;
   KeyframeOptions keyframes;
   ColorMapOptions color;
   std::optional<Trajectory> trajectory;  ///< known poses (a rig's encoders): no tracking
@@ -54,7 +58,10 @@ struct Reconstruction {
   std::optional<double> photometric_rmse_before;  ///< fused colours
   std::optional<double> photometric_rmse_after;   ///< keyframe texture
   double unseen_fraction = 0.0;                   ///< of the vertices
-  int holes = 0;                                  ///< boundary loops
+  int holes = 0;                                  ///< boundary loops left
+  int holes_closed = 0;                           ///< small ones, their vertices unseen
+  double closed_area_mm2 = 0.0;
+  std::vector<CutShare> cut;  ///< what was taken away as no part of the foot, and why
   std::vector<StageTime> stages;
   std::string scan_sha256;
   Warnings refusal_reasons;  ///< empty: fit for measurement

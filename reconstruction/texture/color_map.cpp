@@ -230,7 +230,8 @@ TexturedMesh assemble(ExtractedSurface surface, const SeenColors& colors) {
   result.unseen.resize(colors.color.size());
   for (std::size_t i = 0; i < colors.color.size(); ++i) {
     result.colors[i] = toRgb8(colors.color[i]);
-    result.unseen[i] = colors.seen[i] != 0 ? 0 : 1;
+    const bool measured = result.observations.empty() || result.observations[i] > 0;
+    result.unseen[i] = colors.seen[i] != 0 && measured ? 0 : 1;
   }
   return withHash(std::move(result));
 }

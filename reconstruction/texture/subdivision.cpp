@@ -182,7 +182,8 @@ class Splitter {
     }
     if (!surface_.observations.empty()) {
       const int sum = surface_.observations[a] + surface_.observations[b];
-      surface_.observations.push_back(static_cast<std::uint16_t>(sum / 2));
+      const bool both_seen = surface_.observations[a] > 0 && surface_.observations[b] > 0;
+      surface_.observations.push_back(static_cast<std::uint16_t>(both_seen ? sum / 2 : 0));
     }
   }
 

@@ -105,8 +105,7 @@ ExtractedSurface fuseAndExtract(const Scan& scan, const TrackedScan& tracked, fl
   options.voxel_size_mm = scan.voxel_size_mm;
   options.with_color = false;
   const StopWatch fusing;
-  const TsdfVolume volume =
-      orExit(fuseScan(tracked.archive, tracked.trajectory, {}, options, {})).volume;
+  const TsdfVolume volume = orExit(fuseScan(tracked.archive, tracked.trajectory, {}, options, {}));
   std::printf(
       "fusion                      %8.1f s  (processor %.1f s)\n", fusing.wall_s(), fusing.cpu_s());
   std::printf("volume                      %8zu MB, %d blocks of 8^3 voxels of %.2f mm\n",

@@ -230,7 +230,7 @@ TEST(FuseScan, FusesOnlyFramesWithAPose) {
   ASSERT_TRUE(fused);
   const AnalyticScene scene = bumpyScene();
   double squares = 0.0;
-  const ExtractedSurface surface = fused->volume.extractSurface(3.0F);
+  const ExtractedSurface surface = fused->extractSurface(3.0F);
   for (const Eigen::Vector3f& vertex : surface.mesh.vertices) {
     squares += std::pow(scene.distance(vertex.cast<double>()), 2);
   }
