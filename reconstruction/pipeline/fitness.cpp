@@ -8,6 +8,8 @@ namespace {
 constexpr double kMaxLostFraction = 0.2;
 constexpr double kMaxResidual_mm = 2.0;
 constexpr double kMaxUnseenFraction = 0.3;
+constexpr double kMaxContradictingFraction = 0.02;
+constexpr double kMaxThroughShare = 0.015;
 
 std::string sentence(const char* format, double a, double b) {
   char text[256];
@@ -34,6 +36,18 @@ Warnings refusalReasons(const Reconstruction& reconstruction) {
                                 "the foot kept still.",
                                 *reconstruction.tracking_rmse_mm,
                                 kMaxResidual_mm)});
+  }
+  const double contradicting = static_cast<double>(reconstruction.frames_contradicting) /
+                               static_cast<double>(std::max(1, reconstruction.frames_total));
+  if (contradicting > kMaxContradictingFraction ||
+      reconstruction.median_through_share > kMaxThroughShare) {
+    reasons.push_back(
+        {"frames_contradict",
+         sentence("Frames contradict each other about where the surface is (%.0f %% of "
+                  "the frames; in the middle frame %.1f %% of the surface); scan again, "
+                  "moving slowly, with the foot kept still.",
+                  100.0 * contradicting,
+                  100.0 * reconstruction.median_through_share)});
   }
   if (reconstruction.unseen_fraction > kMaxUnseenFraction) {
     reasons.push_back({"unseen",

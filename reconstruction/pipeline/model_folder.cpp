@@ -120,6 +120,8 @@ json toJson(const Reconstruction& r, const ScanOptions& options, std::string_vie
           {"frames_tracked", r.frames_tracked},
           {"frames_lost", r.framesLost()},
           {"relocalisations", r.relocalisations},
+          {"frames_contradicting", r.frames_contradicting},
+          {"median_through_share", r.median_through_share},
           {"tracking_rmse_mm", orNull(r.tracking_rmse_mm)},
           {"loop_residual_mm", nullptr},  // loops are not closed yet
           {"vertices", r.model.mesh.vertices.size()},

@@ -1,5 +1,6 @@
 #include "reconstruction/pipeline/reconstruct.h"
 
+#include "reconstruction/fusion/frame_agreement.h"
 #include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_cleanup.h"
 #include "reconstruction/fusion/surface_refinement.h"
@@ -50,6 +51,7 @@ class ScanReconstruction {
         .and_then([&] { return findFoot(); })
         .and_then([&] { return refineOnCoarseField(); })
         .and_then([&] { return fuseSurface(); })
+        .and_then([&] { return leaveOutContradictions(); })
         .and_then([&] { return chooseViews(); })
         .and_then([&] { return color(); })
         .map([&] { return finished(); });
@@ -188,9 +190,34 @@ class ScanReconstruction {
     result_.holes_closed = closed.holes_closed;
     result_.closed_area_mm2 = closed.closed_area_mm2;
     result_.holes = countHoles(surface_.mesh);
+    clock_.end("place vertices", result_.frames_total);
+    return {};
+  }
+
+  /// Frames that contradict the surface lose their poses, and the surface is made again without
+  /// them; what contradicts it still is counted, for the verdict on fitness.
+  Expected<void> leaveOutContradictions() {
+    auto agreement = frameAgreement(surface_.mesh, scan_->archive, scan_->trajectory);
+    auto wrong = contradictingFrames(agreement);
+    if (!wrong.empty()) {
+      for (const std::size_t i : wrong) {
+        scan_->trajectory[i].scan_from_camera.reset();
+      }
+      result_.warnings.push_back(
+          {"frames_left_out",
+           std::to_string(wrong.size()) + " frames contradict the others and were left out."});
+      result_.frames_tracked -= static_cast<int>(wrong.size());
+      if (auto fused = fuseSurface(); !fused) {
+        return fused;
+      }
+      agreement = frameAgreement(surface_.mesh, scan_->archive, scan_->trajectory);
+      wrong = contradictingFrames(agreement);
+    }
+    result_.frames_contradicting = static_cast<int>(wrong.size());
+    result_.median_through_share = medianThroughShare(agreement);
     result_.trajectory = std::move(scan_->trajectory);
     scan_.reset();
-    clock_.end("place vertices", result_.frames_total);
+    clock_.end("check frames", result_.frames_total);
     return {};
   }
 

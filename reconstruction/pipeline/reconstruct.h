@@ -54,7 +54,9 @@ struct Reconstruction {
   int frames_total = 0;
   int frames_tracked = 0;
   int relocalisations = 0;
-  std::optional<double> tracking_rmse_mm;         ///< empty with known poses
+  int frames_contradicting = 0;            ///< still, after others were left out
+  double median_through_share = 0.0;       ///< of readings behind the surface (frame_agreement.h)
+  std::optional<double> tracking_rmse_mm;  ///< empty with known poses
   std::optional<double> photometric_rmse_before;  ///< fused colours
   std::optional<double> photometric_rmse_after;   ///< keyframe texture
   double unseen_fraction = 0.0;                   ///< of the vertices
