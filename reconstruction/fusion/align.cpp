@@ -178,6 +178,7 @@ class Aligner {
     const double count = std::max<double>(1.0, static_cast<double>(points_.size()));
     result.rmse_mm = sums.known > 0 ? std::sqrt(sums.squares / sums.known) : options_.kernel_mm;
     result.inlier_fraction = static_cast<double>(sums.inliers) / count;
+    result.known_fraction = static_cast<double>(sums.known) / count;
     result.cost_mm2 = sums.weight > 0.0 ? sums.cost / sums.weight : 0.0;
     return result;
   }

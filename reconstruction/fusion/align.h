@@ -29,6 +29,7 @@ struct AlignmentResult {
   RigidTransform scan_from_camera = RigidTransform::Identity();
   double rmse_mm = 0.0;          ///< over all points where the field is known, none left out
   double inlier_fraction = 0.0;  ///< of all points, those outside the field included
+  double known_fraction = 0.0;   ///< of all points, those inside the field
   double cost_mm2 = 0.0;         ///< robust mean; points outside the field cost the most
   int free_directions = 0;       ///< of the 6, how many the surface does not fix
 };

@@ -22,6 +22,8 @@ constexpr std::size_t kKeyframesTried = 8;
 /// After being lost, a pose is believed only when it is better than the usual limits.
 constexpr double kReliefInlierFraction = 0.6;
 constexpr double kReliefRmseShare = 0.7;
+constexpr double kFewInliers = 0.2;
+constexpr double kGoodShareOfKnown = 0.95;
 /// A surface that leaves more directions free than this (a plane: 3) does not hold the camera.
 constexpr int kMostFreeDirections = 2;
 
@@ -108,7 +110,11 @@ struct ScanTracker::State {
     const double rmse = options.lost_rmse_mm * (strict ? kReliefRmseShare : 1.0);
     const double share = strict ? std::max(kReliefInlierFraction, options.lost_inlier_fraction)
                                 : options.lost_inlier_fraction;
-    return result.rmse_mm <= rmse && result.inlier_fraction >= share &&
+    // Where depth is full of holes, so is the field at first: few points lie in it, all of them
+    // well.
+    const bool few_but_good = result.inlier_fraction >= kFewInliers &&
+                              result.inlier_fraction >= kGoodShareOfKnown * result.known_fraction;
+    return result.rmse_mm <= rmse && (result.inlier_fraction >= share || few_but_good) &&
            result.free_directions <= kMostFreeDirections;
   }
 
