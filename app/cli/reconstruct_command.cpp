@@ -17,6 +17,7 @@ struct Arguments {
   std::filesystem::path scan;
   std::filesystem::path out;
   std::filesystem::path trajectory;
+  std::filesystem::path region;
   std::vector<double> intrinsics;
   double depth_scale = 0.0;
   bool no_texture = false;
@@ -43,6 +44,13 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
       return tl::unexpected(trajectory.error());
     }
     arguments.options.trajectory = std::move(*trajectory);
+  }
+  if (!arguments.region.empty()) {
+    auto region = readRegion(arguments.region);
+    if (!region) {
+      return tl::unexpected(region.error());
+    }
+    arguments.options.region = *region;
   }
   const CameraOverrides overrides = overridesOf(arguments);
   const ScanOpener open = [&](const FrameContent& content) {
@@ -80,6 +88,13 @@ void addReconstruct(CLI::App& app, Command& command) {
                 arguments->options.keep_background,
                 "Keep support, table and wall in the model");
   sub->add_option("--trajectory", arguments->trajectory, "Known poses (TUM) instead of tracking")
+      ->type_name("FILE");
+  sub->add_flag("--refine-trajectory",
+                arguments->options.refine_trajectory,
+                "Take the known poses as a start and move them until the frames agree")
+      ->needs("--trajectory");
+  sub->add_option(
+         "--region", arguments->region, "Keep only what lies in this box of the scan (JSON)")
       ->type_name("FILE");
   sub->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy in pixels")
       ->delimiter(',')

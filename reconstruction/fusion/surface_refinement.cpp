@@ -190,7 +190,8 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
                  "one pose for each frame");
   const SurfaceObserver observer(frames, trajectory, options);
   double kernel_mm = options.kernel_mm;
-  for (int sweep = 0; sweep < options.sweeps; ++sweep, kernel_mm *= 0.5) {
+  for (int sweep = 0; sweep < options.sweeps;
+       ++sweep, kernel_mm = std::max(options.least_kernel_mm, 0.7 * kernel_mm)) {
     const bool last = sweep + 1 == options.sweeps;
     std::vector<HeightSums> heights(surface.mesh.vertices.size());
     std::vector<ColorSums> colors(last ? heights.size() : 0);

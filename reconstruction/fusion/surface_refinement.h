@@ -8,8 +8,9 @@
 namespace tarsus {
 
 struct SurfaceRefinementOptions {
-  int sweeps = 2;
-  double kernel_mm = 2.5;  ///< Tukey's, of the first sweep; halved with each
+  int sweeps = 4;
+  double kernel_mm = 3.0;  ///< Tukey's, of the first sweep; 0.7 of it with each, down to ...
+  double least_kernel_mm = 1.25;
   double max_view_angle_deg = 72.0;
   double prior_observations = 2.0;  ///< the volume's own opinion counts as so many frames
   /// What fewer frames saw is taken away: this share of the tracked ones, but no more than

@@ -135,6 +135,68 @@ void printWoundRegion(const TriangleMesh& carved,
   printRow("wound region, bed to model", distances);
 }
 
+/// What lies between the intact skin and a bed, along the intact skin's normals.
+struct Crater {
+  double volume_mm3 = 0.0;
+  double max_depth_mm = 0.0;
+  int missed = 0;  ///< rays that met no bed
+};
+
+/// The wound is where the carved foot leaves the intact one: true outline and true skin for any
+/// bed.
+Crater craterOf(const TriangleMesh& carved, const TriangleMesh& intact, const MeshIndex& bed) {
+  constexpr double kStart_mm = 2.0;
+  constexpr double kDeepest_mm = 25.0;
+  const auto normals = vertexNormals(intact);
+  Crater crater;
+  std::vector<double> depth(intact.vertices.size(), 0.0);
+  for (std::size_t i = 0; i < intact.vertices.size(); ++i) {
+    if ((carved.vertices[i] - intact.vertices[i]).norm() <= 1e-3F) {
+      continue;
+    }
+    const auto hit =
+        bed.castRay(intact.vertices[i] + static_cast<float>(kStart_mm) * normals[i], -normals[i]);
+    const double found = hit.face < 0 ? kDeepest_mm : double{hit.distance} - kStart_mm;
+    if (found >= kDeepest_mm) {
+      ++crater.missed;
+      continue;
+    }
+    depth[i] = found;
+    crater.max_depth_mm = std::max(crater.max_depth_mm, found);
+  }
+  for (const Eigen::Vector3i& f : intact.faces) {
+    const Eigen::Vector3d a = intact.vertices[static_cast<std::size_t>(f[0])].cast<double>();
+    const Eigen::Vector3d b = intact.vertices[static_cast<std::size_t>(f[1])].cast<double>();
+    const Eigen::Vector3d c = intact.vertices[static_cast<std::size_t>(f[2])].cast<double>();
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    crater.volume_mm3 +=
+        area *
+        (depth[static_cast<std::size_t>(f[0])] + depth[static_cast<std::size_t>(f[1])] +
+         depth[static_cast<std::size_t>(f[2])]) /
+        3.0;
+  }
+  return crater;
+}
+
+/// Both beds by the same rays, so that what is left is the model's error alone.
+void printVolume(const TriangleMesh& carved,
+                 const TriangleMesh& intact,
+                 const TriangleMesh& model) {
+  const Crater truth = craterOf(carved, intact, MeshIndex(carved));
+  const Crater found = craterOf(carved, intact, MeshIndex(model));
+  std::printf("%-34s %8.1f of %.1f mm3 (%+.2f %%), %d rays missed\n",
+              "volume, true outline and skin",
+              found.volume_mm3,
+              truth.volume_mm3,
+              100.0 * (found.volume_mm3 / truth.volume_mm3 - 1.0),
+              found.missed);
+  std::printf("%-34s %8.2f of %.2f mm (%+.2f)\n",
+              "greatest depth below true skin",
+              found.max_depth_mm,
+              truth.max_depth_mm,
+              found.max_depth_mm - truth.max_depth_mm);
+}
+
 void printBench(const std::filesystem::path& scan, const std::filesystem::path& model_folder) {
   const TexturedMesh carved = orExit(readPly(scan / "truth" / "mesh.ply"));
   const TexturedMesh intact = orExit(readPly(scan / "truth" / "intact.ply"));
@@ -153,6 +215,7 @@ void printBench(const std::filesystem::path& scan, const std::filesystem::path& 
               comparison.a_to_b.p95_mm,
               comparison.a_to_b.max_mm);
   printWoundRegion(carved.mesh, intact.mesh, model.mesh);
+  printVolume(carved.mesh, intact.mesh, model.mesh);
   printCompleteness(carved, model, pairs, camera.depth);
 }
 
