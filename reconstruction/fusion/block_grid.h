@@ -125,6 +125,7 @@ struct TsdfVolume::Grid {
   BlockGrid blocks;
   bool confined = false;                 ///< frames add no blocks
   std::vector<int> last_frame_of_block;  ///< to list each block once per frame
+  std::vector<int> changed_at;           ///< by block: the last frame that reached it, from 1 on
   int frames = 0;
 };
 

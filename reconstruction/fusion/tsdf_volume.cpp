@@ -190,6 +190,10 @@ void TsdfVolume::integrate(const RgbdCamera& camera,
   BlockGrid& grid = grid_->blocks;
   const std::vector<int> blocks = grid_->blocksInView(planes, scan_from_camera);
   ++grid_->frames;
+  grid_->changed_at.resize(static_cast<std::size_t>(grid.blockCount()), 0);
+  for (const int block : blocks) {
+    grid_->changed_at[static_cast<std::size_t>(block)] = grid_->frames;
+  }
   const bool with_color = grid.hasColor() && color.width() == camera.color.width &&
                           color.height() == camera.color.height && color.width() > 0;
   const BlockUpdate update(
@@ -214,5 +218,19 @@ ExtractedSurface TsdfVolume::extractSurface(float min_weight) const {
 std::size_t TsdfVolume::memoryBytes() const { return grid_->blocks.memoryBytes(); }
 
 int TsdfVolume::blockCount() const { return grid_->blocks.blockCount(); }
+
+int TsdfVolume::framesFused() const { return grid_->frames; }
+
+std::vector<int> TsdfVolume::blocksChangedSince(int frames_fused) const {
+  std::vector<int> changed;
+  for (std::size_t i = 0; i < grid_->changed_at.size(); ++i) {
+    if (grid_->changed_at[i] > frames_fused) {
+      changed.push_back(static_cast<int>(i));
+    }
+  }
+  return changed;
+}
+
+const BlockGrid& TsdfVolume::blocks() const { return grid_->blocks; }
 
 }  // namespace tarsus

@@ -12,6 +12,7 @@
 
 namespace tarsus {
 
+class BlockGrid;
 struct DepthPlanes;
 
 /// Weighting of a signed distance d behind or before the surface.
@@ -88,6 +89,11 @@ class TsdfVolume {
   [[nodiscard]] ExtractedSurface extractSurface(float min_weight) const;
   [[nodiscard]] std::size_t memoryBytes() const;
   [[nodiscard]] int blockCount() const;
+  [[nodiscard]] int framesFused() const;
+  /// Numbers of the blocks that frames have reached since so many frames were fused, ascending.
+  [[nodiscard]] std::vector<int> blocksChangedSince(int frames_fused) const;
+  /// The storage, for fusion/ alone.
+  [[nodiscard]] const BlockGrid& blocks() const;
 
  private:
   struct Grid;

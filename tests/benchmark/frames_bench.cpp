@@ -1,13 +1,14 @@
 // Time and memory of the hot loops on frames that lie in memory, as one line of JSON each:
 //   tarsus-bench-frames integrate SCAN [options]   TsdfVolume::integrate with the true poses
-//   tarsus-bench-frames stream SCAN [options]      ScanTracker::push: tracking and fusion
+//   tarsus-bench-frames stream SCAN [options]      LiveSession::push: tracking and fusion; with
+//     --preview-hz 5 once more with the preview mesh; --pipelined prepares the next frame meanwhile
 //   tarsus-bench-frames compare MODEL.ply TRUE.ply distances of the model's vertices, see below
 // open3d_side.py does the same with Open3D; the options are the same too.
 
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
-#include "reconstruction/fusion/scan_tracker.h"
 #include "reconstruction/fusion/tsdf_volume.h"
+#include "reconstruction/pipeline/live_session.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/ply.h"
 #include "tests/benchmark/bench_support.h"
@@ -20,6 +21,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -37,6 +39,8 @@ struct Options {
   int frames = 150;
   int hot_frame = -1;  ///< the one that callgrind counts; -1: none
   bool color = false;
+  double preview_hz = 0.0;  ///< rounds of the preview mesh in a second of the scan
+  bool pipelined = false;
   std::filesystem::path mesh;  ///< empty: no surface is written
   std::filesystem::path reference;
 };
@@ -180,27 +184,76 @@ void integrate(const Options& options) {
         "\"touched_voxels\": " + std::to_string(touched) + ", \"trajectory_rmse_mm\": 0");
 }
 
+/// One pass of a session over the scan.
+struct StreamRun {
+  Clock clock;
+  Trajectory trajectory;
+  int meshed_blocks = 0;
+  int previews = 0;  ///< frames after which the preview was renewed
+};
+
+StreamRun streamOnce(LiveSession& session, const LoadedScan& scan, const Options& options) {
+  StreamRun run;
+  std::future<PreparedFrame> ready;
+  const auto prepare = [&](std::size_t i) {
+    ready = std::async(std::launch::async, [&, i] { return session.prepare(scan.frames[i]); });
+  };
+  const auto push = [&](std::size_t i) {
+    if (!options.pipelined) {
+      return session.push(scan.frames[i]);
+    }
+    if (i == 0) {
+      prepare(0);
+    }
+    const PreparedFrame frame = ready.get();
+    if (i + 1 < scan.frames.size()) {
+      prepare(i + 1);
+    }
+    return session.push(frame);
+  };
+  for (std::size_t i = 0; i < scan.frames.size(); ++i) {
+    runFrame(run.clock, i, options, [&] {
+      const LiveFrame frame = push(i);
+      run.trajectory.push_back(frame.pose);
+      run.meshed_blocks += frame.meshed_blocks;
+      run.previews += frame.meshed_blocks > 0 ? 1 : 0;
+    });
+  }
+  return run;
+}
+
+std::string previewFigures(const StreamRun& run) {
+  const std::vector<double>& times = run.clock.wall_ms;
+  return ", \"preview_mean_ms\": " + std::to_string(run.clock.mean_ms()) +
+         ", \"preview_frames_per_s\": " + std::to_string(1000.0 / run.clock.mean_ms()) +
+         ", \"preview_worst_ms\": " +
+         std::to_string(*std::max_element(times.begin(), times.end())) +
+         ", \"preview_rounds\": " + std::to_string(run.previews) +
+         ", \"preview_blocks\": " + std::to_string(run.meshed_blocks);
+}
+
 void stream(const Options& options) {
   const LoadedScan scan = load(options);
   const double before_mb = peakMemory_mb();
   TrackingOptions tracking;
   tracking.voxel_size_mm = options.voxel_size_mm;
   tracking.max_depth_mm = std::min(tracking.max_depth_mm, options.far_mm);
-  ScanTracker tracker(scan.camera, tracking);
-  Clock clock;
-  Trajectory trajectory;
-  for (std::size_t i = 0; i < scan.frames.size(); ++i) {
-    runFrame(clock, i, options, [&] { trajectory.push_back(tracker.push(scan.frames[i])); });
-  }
+  LiveSession session(scan.camera, tracking, {.preview_hz = 0.0});
+  const StreamRun run = streamOnce(session, scan, options);
+  const TsdfVolume& model = session.tracker().model();
   const double work_mb = peakMemory_mb() - before_mb;
-  writeSurface(tracker.model(), options);
-  const TrajectoryError error = trajectoryError(trajectory, scan.truth);
-  print(clock,
-        work_mb,
-        tracker.model().blockCount(),
-        "\"lost\": " + std::to_string(static_cast<int>(scan.frames.size()) - error.poses) +
-            ", \"trajectory_rmse_mm\": " + std::to_string(error.rms_mm) +
-            ", \"trajectory_max_mm\": " + std::to_string(error.farthest_mm));
+  writeSurface(model, options);
+  const TrajectoryError error = trajectoryError(run.trajectory, scan.truth);
+  std::string further =
+      "\"lost\": " + std::to_string(static_cast<int>(scan.frames.size()) - error.poses) +
+      ", \"trajectory_rmse_mm\": " + std::to_string(error.rms_mm) +
+      ", \"trajectory_max_mm\": " + std::to_string(error.farthest_mm) +
+      ", \"frames_per_s\": " + std::to_string(1000.0 / run.clock.mean_ms());
+  if (options.preview_hz > 0.0) {
+    LiveSession live(scan.camera, tracking, {.preview_hz = options.preview_hz});
+    further += previewFigures(streamOnce(live, scan, options));
+  }
+  print(run.clock, work_mb, model.blockCount(), further);
 }
 
 /// Root mean square distance of the vertices of one mesh from the other, those farther than 10 mm
@@ -248,6 +301,8 @@ int main(int argc, char** argv) {
   addOptions(*streaming, options);
   comparing->add_option("model", options.scan)->required();
   comparing->add_option("truth", options.reference)->required();
+  streaming->add_option("--preview-hz", options.preview_hz, "a second pass with the preview");
+  streaming->add_flag("--pipelined", options.pipelined, "planes of the next frame meanwhile");
   CLI11_PARSE(app, argc, argv);
   if (integrating->parsed()) {
     integrate(options);
