@@ -1,10 +1,12 @@
 #include "reconstruction/fusion/block_surface.h"
 
 #include "reconstruction/fusion/marching_cubes_table.h"
+#include "reconstruction/fusion/vector_code.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace tarsus {
 namespace {
@@ -18,37 +20,45 @@ constexpr float kVertexMargin = 1e-3F;
 /// not make the mean better. Ours.
 constexpr float kIndependentFrames = 25.0F;
 
-/// A block's distances with one more layer from its upper neighbours; one bit a voxel and one
-/// entry a row (y, z) tell what may be used and what lies behind the surface.
-struct PaddedBlock {
-  std::array<float, kLocalEdges / 3U> distance_mm;
-  std::array<std::uint32_t, static_cast<std::size_t>(kPaddedSide* kPaddedSide)> known{};
-  std::array<std::uint32_t, static_cast<std::size_t>(kPaddedSide* kPaddedSide)> behind{};
+constexpr std::uint64_t kLowBits = 0x0101010101010101ULL;
 
-  [[nodiscard]] static std::size_t row(int y, int z) {
-    return static_cast<std::size_t>(y + kPaddedSide * z);
+/// For each voxel 0 where it may not be used, else 1 before and 3 behind the surface.
+using VoxelSides = std::array<std::uint8_t, kBlockVoxels>;
+
+TARSUS_VECTOR_CODE void findSides(const VoxelBlock& block, float least_weight, VoxelSides& sides) {
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+    const float distance = block.distance_mm[i];
+    const bool known = (block.weight[i] >= least_weight) & (distance == distance);
+    sides[i] = static_cast<std::uint8_t>(known ? (distance < 0.0F ? 3 : 1) : 0);
   }
+}
+
+/// The lowest bit of each of 8 bytes, the first byte's first.
+std::uint32_t gatherLowBits(std::uint64_t bytes) {
+  return static_cast<std::uint32_t>(((bytes & kLowBits) * 0x0102040810204080ULL) >> 56U);
+}
+
+/// A block's voxels with one more layer from its upper neighbours: one bit a voxel and one entry a
+/// row (y, z) tell what may be used and what lies behind the surface.
+class PaddedBlock {
+ public:
+  PaddedBlock(const BlockGrid& grid, const std::array<int, 8>& blocks, float least_weight) {
+    for (std::size_t n = 0; n < blocks.size(); ++n) {
+      blocks_[n] = blocks[n] < 0 ? nullptr : &grid.block(blocks[n]);
+    }
+    takeOwn(least_weight);
+    if (any_known_) {
+      takeBorder(least_weight);
+    }
+  }
+
   [[nodiscard]] static std::size_t at(int x, int y, int z) {
     return static_cast<std::size_t>(x) + kPaddedSide * row(y, z);
   }
-
-  /// Voxels of one row from one block, beginning at x.
-  void take(const VoxelBlock& source, int x, int y, int z, float least_weight) {
-    const int count = x == 0 ? kBlockSide : 1;
-    const std::size_t first = BlockGrid::voxelInBlock({x, y, z});
-    float* const target = distance_mm.data() + at(x, y, z);
-    std::uint32_t known_bits = 0;
-    std::uint32_t behind_bits = 0;
-    for (int i = 0; i < count; ++i) {
-      const std::size_t voxel = first + static_cast<std::size_t>(i);
-      const float distance = source.distance_mm[voxel];
-      const bool is_known = source.weight[voxel] >= least_weight && !std::isnan(distance);
-      target[i] = distance;
-      known_bits |= static_cast<std::uint32_t>(is_known) << (x + i);
-      behind_bits |= static_cast<std::uint32_t>(is_known && distance < 0.0F) << (x + i);
-    }
-    known[row(y, z)] |= known_bits;
-    behind[row(y, z)] |= behind_bits;
+  /// Each cell starts at a voxel of the block itself.
+  [[nodiscard]] bool mayHaveCells() const { return any_known_; }
+  [[nodiscard]] float distance(int x, int y, int z) const {
+    return blockAt(x, y, z)->distance_mm[BlockGrid::voxelInBlock({x, y, z})];
   }
   /// One bit for each cell of the row that has all 8 corners and both signs.
   [[nodiscard]] std::uint32_t cellsInRow(int y, int z) const {
@@ -58,40 +68,68 @@ struct PaddedBlock {
     std::uint32_t any_behind = 0;
     std::uint32_t all_behind = all_known;
     for (const std::size_t r : rows) {
-      all_known &= known[r];
-      any_behind |= behind[r];
-      all_behind &= behind[r];
+      all_known &= known_[r];
+      any_behind |= behind_[r];
+      all_behind &= behind_[r];
     }
     all_known &= all_known >> 1U;
     any_behind |= any_behind >> 1U;
     all_behind &= all_behind >> 1U;
     return all_known & any_behind & ~all_behind & ((1U << kBlockSide) - 1U);
   }
-};
 
-PaddedBlock padded(const BlockGrid& grid, const std::array<int, 8>& blocks, float least_weight) {
-  PaddedBlock result;
-  for (int z = 0; z < kPaddedSide; ++z) {
-    for (int y = 0; y < kPaddedSide; ++y) {
-      for (int x = 0; x < kPaddedSide; x += kBlockSide) {
-        const int n = (x >> 3) | ((y >> 3) << 1) | ((z >> 3) << 2);
-        const int number = blocks[static_cast<std::size_t>(n)];
-        if (number >= 0) {
-          result.take(grid.block(number), x, y, z, least_weight);
+ private:
+  [[nodiscard]] static std::size_t row(int y, int z) {
+    return static_cast<std::size_t>(y + kPaddedSide * z);
+  }
+  [[nodiscard]] const VoxelBlock* blockAt(int x, int y, int z) const {
+    return blocks_[static_cast<std::size_t>((x >> 3) | ((y >> 3) << 1) | ((z >> 3) << 2))];
+  }
+  void takeOwn(float least_weight) {
+    VoxelSides sides;
+    findSides(*blocks_[0], least_weight, sides);
+    for (int r = 0; r < kBlockSide * kBlockSide; ++r) {
+      std::uint64_t bytes = 0;
+      std::memcpy(&bytes, sides.data() + r * kBlockSide, sizeof bytes);
+      known_[row(r & 7, r >> 3)] = gatherLowBits(bytes);
+      behind_[row(r & 7, r >> 3)] = gatherLowBits(bytes >> 1U);
+      any_known_ = any_known_ || bytes != 0;
+    }
+  }
+  void takeBorder(float least_weight) {
+    for (int z = 0; z < kPaddedSide; ++z) {
+      for (int y = 0; y < kPaddedSide; ++y) {
+        const bool own_row = y < kBlockSide && z < kBlockSide;
+        for (int x = own_row ? kBlockSide : 0; x < kPaddedSide; ++x) {
+          take(x, y, z, least_weight);
         }
       }
     }
   }
-  return result;
-}
+  void take(int x, int y, int z, float least_weight) {
+    const VoxelBlock* const block = blockAt(x, y, z);
+    const std::size_t voxel = BlockGrid::voxelInBlock({x, y, z});
+    if (block == nullptr || !(block->weight[voxel] >= least_weight)) {
+      return;
+    }
+    const float distance = block->distance_mm[voxel];
+    known_[row(y, z)] |= static_cast<std::uint32_t>(!std::isnan(distance)) << x;
+    behind_[row(y, z)] |= static_cast<std::uint32_t>(distance < 0.0F) << x;
+  }
+
+  static constexpr std::size_t kRows = static_cast<std::size_t>(kPaddedSide * kPaddedSide);
+  std::array<const VoxelBlock*, 8> blocks_{};  ///< by offset bits, [0] itself
+  std::array<std::uint32_t, kRows> known_{};
+  std::array<std::uint32_t, kRows> behind_{};
+  bool any_known_ = false;
+};
 
 /// Sign pattern of a cell with known corners; 0 where it must not be used.
 int patternOf(const PaddedBlock& block, int x, int y, int z, float max_jump_mm) {
   std::array<float, 8> corners{};
   int pattern = 0;
   for (int i = 0; i < 8; ++i) {
-    const float distance =
-        block.distance_mm[PaddedBlock::at(x + (i & 1), y + ((i >> 1) & 1), z + (i >> 2))];
+    const float distance = block.distance(x + (i & 1), y + ((i >> 1) & 1), z + (i >> 2));
     corners[static_cast<std::size_t>(i)] = distance;
     pattern |= distance < 0.0F ? 1 << i : 0;
   }
@@ -189,7 +227,10 @@ BlockTriangles trianglesOfBlock(const BlockGrid& grid, int number, float least_w
     result.neighbours[static_cast<std::size_t>(n)] =
         grid.find(grid.coordinates(number) + Eigen::Vector3i(n & 1, (n >> 1) & 1, n >> 2));
   }
-  const PaddedBlock block = padded(grid, result.neighbours, least_weight);
+  const PaddedBlock block(grid, result.neighbours, least_weight);
+  if (!block.mayHaveCells()) {
+    return result;
+  }
   const float max_jump_mm = kMaxJump_voxels * grid.voxelSize();
   for (int row = 0; row < kBlockSide * kBlockSide; ++row) {
     const int y = row & 7;

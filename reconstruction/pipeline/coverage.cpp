@@ -13,6 +13,7 @@ constexpr int kBoxFaces = 6;
 
 struct SeenPoints {
   std::vector<Eigen::Vector3f> p_mm;
+  std::vector<Eigen::Vector3f> normal;
   std::vector<float> weight;
 };
 
@@ -24,6 +25,7 @@ SeenPoints foreground(const PreviewPieces& pieces, const CoverageOptions& option
       const Eigen::Vector3f& p = piece->mesh.vertices[i];
       if (!options.support || options.support->signedDistance(p) > options.support_margin_mm) {
         seen.p_mm.push_back(p);
+        seen.normal.push_back(piece->mesh.normals[i]);
         seen.weight.push_back(piece->weight[i]);
       }
     }
@@ -79,34 +81,62 @@ void fitExtent(const std::vector<Eigen::Vector3f>& points,
   result.center_mm += direction * (0.5F * (*last + low));
 }
 
-/// Cell in whose direction a point lies.
-std::size_t cellOf(const Coverage& coverage, const Eigen::Vector3f& p_mm) {
+/// Place on the n x n cells of a face across `axis`, row by row.
+std::size_t placeOn(const Coverage& coverage, int axis, const Eigen::Vector3f& p_mm) {
   const Eigen::Vector3f q =
       (coverage.axes * (p_mm - coverage.center_mm)).cwiseQuotient(coverage.half_size_mm);
-  int axis = 0;
-  const float most = std::max(q.cwiseAbs().maxCoeff(&axis), 1e-6F);
   const int n = coverage.cells_per_edge;
   const auto line = [&](int other) {
-    const float share = 0.5F * (q[other] / most + 1.0F);
-    return std::clamp(static_cast<int>(share * static_cast<float>(n)), 0, n - 1);
+    const float share = std::clamp(0.5F * (q[other] + 1.0F), 0.0F, 1.0F);
+    return std::min(static_cast<int>(share * static_cast<float>(n)), n - 1);
   };
-  const int face = 2 * axis + (q[axis] < 0.0F ? 1 : 0);
-  return static_cast<std::size_t>((face * n + line((axis + 2) % 3)) * n + line((axis + 1) % 3));
+  return static_cast<std::size_t>(line((axis + 2) % 3) * n + line((axis + 1) % 3));
+}
+
+/// Face of the box that a vector, in the box's axes, points to.
+int faceTowards(const Eigen::Vector3f& along) {
+  int axis = 0;
+  along.cwiseAbs().maxCoeff(&axis);
+  return 2 * axis + (along[axis] < 0.0F ? 1 : 0);
+}
+
+/// Face to which a vertex belongs. Short sides count for their length, as on an ellipsoid, or its
+/// ends would be mere points; a thin shell is not all sides, though.
+int faceOf(const Coverage& coverage, const Eigen::Vector3f& normal) {
+  const Eigen::Vector3f size =
+      coverage.half_size_mm.cwiseMax(0.5F * coverage.half_size_mm.maxCoeff());
+  return faceTowards((coverage.axes * normal).cwiseProduct(size));
 }
 
 void markCells(const SeenPoints& seen, const CoverageOptions& options, Coverage& result) {
+  const std::size_t per_face = result.cells.size() / kBoxFaces;
   std::vector<int> all(result.cells.size(), 0);
   std::vector<int> well(result.cells.size(), 0);
+  std::vector<int> in_column(3 * per_face, 0);
   for (std::size_t i = 0; i < seen.p_mm.size(); ++i) {
-    const std::size_t cell = cellOf(result, seen.p_mm[i]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto first = static_cast<std::size_t>(axis) * per_face;
+      ++in_column[first + placeOn(result, axis, seen.p_mm[i])];
+    }
+    const int face = faceOf(result, seen.normal[i]);
+    const std::size_t cell =
+        static_cast<std::size_t>(face) * per_face + placeOn(result, face / 2, seen.p_mm[i]);
     ++all[cell];
     well[cell] += seen.weight[i] >= options.well_seen_weight ? 1 : 0;
   }
   for (std::size_t i = 0; i < result.cells.size(); ++i) {
-    if (result.cells[i] != CellState::NotAsked && all[i] >= options.least_vertices) {
+    const std::size_t column = i / (2 * per_face) * per_face + i % per_face;
+    if (in_column[column] < options.least_vertices) {
+      result.cells[i] = CellState::NotAsked;
+    } else if (all[i] >= options.least_vertices) {
       result.cells[i] = 2 * well[i] >= all[i] ? CellState::SeenWell : CellState::SeenPoorly;
     }
   }
+}
+
+void leaveOutFace(int face, Coverage& coverage) {
+  const auto per_face = static_cast<std::ptrdiff_t>(coverage.cells.size() / kBoxFaces);
+  std::fill_n(coverage.cells.begin() + face * per_face, per_face, CellState::NotAsked);
 }
 
 double percentWell(const CellState* first, const CellState* last) {
@@ -141,12 +171,13 @@ Coverage coverageOf(const PreviewPieces& pieces, const CoverageOptions& options)
   const int n = std::max(1, options.cells_per_edge);
   result.cells_per_edge = n;
   result.cells.assign(static_cast<std::size_t>(kBoxFaces * n * n), CellState::Unseen);
-  if (options.support) {
-    std::fill(result.cells.end() - static_cast<std::ptrdiff_t>(n) * n,
-              result.cells.end(),
-              CellState::NotAsked);
-  }
   markCells(seen, options, result);
+  if (options.support) {
+    leaveOutFace(kBoxFaces - 1, result);
+  }
+  for (const Eigen::Vector3f& direction : options.open_directions) {
+    leaveOutFace(faceTowards(result.axes * direction), result);
+  }
   result.percent = percentWell(result.cells.data(), result.cells.data() + result.cells.size());
   const auto well = std::count_if(seen.weight.begin(), seen.weight.end(), [&](float weight) {
     return weight >= options.well_seen_weight;

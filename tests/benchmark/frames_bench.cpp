@@ -225,6 +225,7 @@ StreamRun streamOnce(LiveSession& session, const LoadedScan& scan, const Options
 std::string previewFigures(const StreamRun& run) {
   const std::vector<double>& times = run.clock.wall_ms;
   return ", \"preview_mean_ms\": " + std::to_string(run.clock.mean_ms()) +
+         ", \"preview_cpu_ms\": " + std::to_string(run.clock.cpu_ms / run.clock.frames()) +
          ", \"preview_frames_per_s\": " + std::to_string(1000.0 / run.clock.mean_ms()) +
          ", \"preview_worst_ms\": " +
          std::to_string(*std::max_element(times.begin(), times.end())) +
