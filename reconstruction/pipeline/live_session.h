@@ -10,9 +10,9 @@ namespace tarsus {
 struct LiveOptions {
   /// Rounds of the preview in a second of the scan; 0: none.
   double preview_hz = 5.0;
-  /// Blocks meshed after one frame, at most: tracking never waits longer than this takes (about
-  /// 1 us a block without surface, 30 us with). A round goes on after the next frames.
-  int preview_blocks_per_frame = 600;
+  /// Blocks meshed after one frame, at most, so that tracking never waits long (3 us a block on one
+  /// core, on the average of a foot's band). A round goes on after the next frames.
+  int preview_blocks_per_frame = 1000;
   float preview_min_weight = 3.0F;  ///< as in TsdfVolume::extractSurface
 };
 

@@ -1,13 +1,15 @@
 // Time and memory of the hot loops on frames that lie in memory, as one line of JSON each:
 //   tarsus-bench-frames integrate SCAN [options]   TsdfVolume::integrate with the true poses
 //   tarsus-bench-frames stream SCAN [options]      LiveSession::push: tracking and fusion; with
-//     --preview-hz 5 once more with the preview mesh; --pipelined prepares the next frame meanwhile
+//     --preview-hz 5 in turn with a session that has the preview mesh; --pipelined prepares the
+//     next frame meanwhile
 //   tarsus-bench-frames compare MODEL.ply TRUE.ply distances of the model's vertices, see below
 // open3d_side.py does the same with Open3D; the options are the same too.
 
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/fusion/tsdf_volume.h"
+#include "reconstruction/pipeline/coverage.h"
 #include "reconstruction/pipeline/live_session.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/ply.h"
@@ -23,6 +25,7 @@
 #include <functional>
 #include <future>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -184,45 +187,54 @@ void integrate(const Options& options) {
         "\"touched_voxels\": " + std::to_string(touched) + ", \"trajectory_rmse_mm\": 0");
 }
 
-/// One pass of a session over the scan.
-struct StreamRun {
+/// One session that goes through the scan.
+struct StreamPass {
+  StreamPass(const LoadedScan& loaded, const Options& bench_options, double preview_hz)
+      : scan(loaded),
+        options(bench_options),
+        session(scan.camera, trackingOptions(options), {preview_hz}) {
+    if (options.pipelined) {
+      prepare(0);
+    }
+  }
+
+  void push(std::size_t i) {
+    runFrame(clock, i, options, [&] {
+      const LiveFrame frame = options.pipelined ? pushPrepared(i) : session.push(scan.frames[i]);
+      trajectory.push_back(frame.pose);
+      meshed_blocks += frame.meshed_blocks;
+      previews += frame.meshed_blocks > 0 ? 1 : 0;
+    });
+  }
+
+  static TrackingOptions trackingOptions(const Options& bench_options) {
+    TrackingOptions tracking;
+    tracking.voxel_size_mm = bench_options.voxel_size_mm;
+    tracking.max_depth_mm = std::min(tracking.max_depth_mm, bench_options.far_mm);
+    return tracking;
+  }
+  void prepare(std::size_t i) {
+    if (i < scan.frames.size()) {
+      ready = std::async(std::launch::async, [this, i] { return session.prepare(scan.frames[i]); });
+    }
+  }
+  LiveFrame pushPrepared(std::size_t i) {
+    const PreparedFrame frame = ready.get();
+    prepare(i + 1);
+    return session.push(frame);
+  }
+
+  const LoadedScan& scan;
+  const Options& options;
+  LiveSession session;
   Clock clock;
   Trajectory trajectory;
   int meshed_blocks = 0;
   int previews = 0;  ///< frames after which the preview was renewed
+  std::future<PreparedFrame> ready;
 };
 
-StreamRun streamOnce(LiveSession& session, const LoadedScan& scan, const Options& options) {
-  StreamRun run;
-  std::future<PreparedFrame> ready;
-  const auto prepare = [&](std::size_t i) {
-    ready = std::async(std::launch::async, [&, i] { return session.prepare(scan.frames[i]); });
-  };
-  const auto push = [&](std::size_t i) {
-    if (!options.pipelined) {
-      return session.push(scan.frames[i]);
-    }
-    if (i == 0) {
-      prepare(0);
-    }
-    const PreparedFrame frame = ready.get();
-    if (i + 1 < scan.frames.size()) {
-      prepare(i + 1);
-    }
-    return session.push(frame);
-  };
-  for (std::size_t i = 0; i < scan.frames.size(); ++i) {
-    runFrame(run.clock, i, options, [&] {
-      const LiveFrame frame = push(i);
-      run.trajectory.push_back(frame.pose);
-      run.meshed_blocks += frame.meshed_blocks;
-      run.previews += frame.meshed_blocks > 0 ? 1 : 0;
-    });
-  }
-  return run;
-}
-
-std::string previewFigures(const StreamRun& run) {
+std::string previewFigures(const StreamPass& run) {
   const std::vector<double>& times = run.clock.wall_ms;
   return ", \"preview_mean_ms\": " + std::to_string(run.clock.mean_ms()) +
          ", \"preview_cpu_ms\": " + std::to_string(run.clock.cpu_ms / run.clock.frames()) +
@@ -233,28 +245,48 @@ std::string previewFigures(const StreamRun& run) {
          ", \"preview_blocks\": " + std::to_string(run.meshed_blocks);
 }
 
+/// What a viewer's thread does with the preview.
+std::string coverageFigures(const LivePreview& preview) {
+  const StopWatch joining;
+  const std::size_t faces = joinPieces(preview.pieces).mesh.faces.size();
+  const double join_ms = 1000.0 * joining.wall_s();
+  const StopWatch watch;
+  const Coverage coverage = coverageOf(preview.pieces, {});
+  return ", \"preview_faces\": " + std::to_string(faces) +
+         ", \"join_ms\": " + std::to_string(join_ms) +
+         ", \"coverage_ms\": " + std::to_string(1000.0 * watch.wall_s()) +
+         ", \"coverage_percent\": " + std::to_string(coverage.percent) +
+         ", \"well_seen_percent\": " + std::to_string(coverage.well_seen_percent);
+}
+
+/// Both passes frame by frame in turn, so that whatever else the computer does slows both alike.
 void stream(const Options& options) {
   const LoadedScan scan = load(options);
   const double before_mb = peakMemory_mb();
-  TrackingOptions tracking;
-  tracking.voxel_size_mm = options.voxel_size_mm;
-  tracking.max_depth_mm = std::min(tracking.max_depth_mm, options.far_mm);
-  LiveSession session(scan.camera, tracking, {.preview_hz = 0.0});
-  const StreamRun run = streamOnce(session, scan, options);
-  const TsdfVolume& model = session.tracker().model();
+  StreamPass plain(scan, options, 0.0);
+  std::optional<StreamPass> live;
+  if (options.preview_hz > 0.0) {
+    live.emplace(scan, options, options.preview_hz);
+  }
+  for (std::size_t i = 0; i < scan.frames.size(); ++i) {
+    plain.push(i);
+    if (live) {
+      live->push(i);
+    }
+  }
+  const TsdfVolume& model = plain.session.tracker().model();
   const double work_mb = peakMemory_mb() - before_mb;
   writeSurface(model, options);
-  const TrajectoryError error = trajectoryError(run.trajectory, scan.truth);
+  const TrajectoryError error = trajectoryError(plain.trajectory, scan.truth);
   std::string further =
       "\"lost\": " + std::to_string(static_cast<int>(scan.frames.size()) - error.poses) +
       ", \"trajectory_rmse_mm\": " + std::to_string(error.rms_mm) +
       ", \"trajectory_max_mm\": " + std::to_string(error.farthest_mm) +
-      ", \"frames_per_s\": " + std::to_string(1000.0 / run.clock.mean_ms());
-  if (options.preview_hz > 0.0) {
-    LiveSession live(scan.camera, tracking, {.preview_hz = options.preview_hz});
-    further += previewFigures(streamOnce(live, scan, options));
+      ", \"frames_per_s\": " + std::to_string(1000.0 / plain.clock.mean_ms());
+  if (live) {
+    further += previewFigures(*live) + coverageFigures(*live->session.preview());
   }
-  print(run.clock, work_mb, model.blockCount(), further);
+  print(plain.clock, work_mb, model.blockCount(), further);
 }
 
 /// Root mean square distance of the vertices of one mesh from the other, those farther than 10 mm
@@ -302,7 +334,7 @@ int main(int argc, char** argv) {
   addOptions(*streaming, options);
   comparing->add_option("model", options.scan)->required();
   comparing->add_option("truth", options.reference)->required();
-  streaming->add_option("--preview-hz", options.preview_hz, "a second pass with the preview");
+  streaming->add_option("--preview-hz", options.preview_hz, "a second session, with the preview");
   streaming->add_flag("--pipelined", options.pipelined, "planes of the next frame meanwhile");
   CLI11_PARSE(app, argc, argv);
   if (integrating->parsed()) {
