@@ -17,20 +17,24 @@ struct SeenPoints {
   std::vector<float> weight;
 };
 
-SeenPoints foreground(const PreviewPieces& pieces, const CoverageOptions& options) {
+SeenPoints foreground(const PreviewSurface& surface, const CoverageOptions& options) {
   SeenPoints seen;
-  for (const auto& piece : pieces) {
-    const std::size_t count = piece ? piece->mesh.vertices.size() : 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f& p = piece->mesh.vertices[i];
-      if (!options.support || options.support->signedDistance(p) > options.support_margin_mm) {
-        seen.p_mm.push_back(p);
-        seen.normal.push_back(piece->mesh.normals[i]);
-        seen.weight.push_back(piece->weight[i]);
-      }
+  for (std::size_t i = 0; i < surface.mesh.vertices.size(); ++i) {
+    const Eigen::Vector3f& p = surface.mesh.vertices[i];
+    if (!options.support || options.support->signedDistance(p) > options.support_margin_mm) {
+      seen.p_mm.push_back(p);
+      seen.normal.push_back(surface.mesh.normals[i]);
+      seen.weight.push_back(surface.weight[i]);
     }
   }
   return seen;
+}
+
+/// The same one of two opposite directions, however the points change a little.
+Eigen::RowVector3d oriented(const Eigen::Vector3d& axis) {
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return (axis[largest] < 0.0 ? -axis : axis).transpose();
 }
 
 /// Rows by falling spread; with a support the last is its normal and the others lie in it.
@@ -53,10 +57,10 @@ Eigen::Matrix3f principalAxes(const std::vector<Eigen::Vector3f>& points,
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   Eigen::Matrix3d axes;
-  axes.row(0) = solver.eigenvectors().col(2).transpose();
+  axes.row(0) = oriented(solver.eigenvectors().col(2));
   axes.row(2) = options.support
                     ? Eigen::RowVector3d(options.support->normal().cast<double>().normalized())
-                    : Eigen::RowVector3d(solver.eigenvectors().col(0).transpose());
+                    : oriented(solver.eigenvectors().col(0));
   axes.row(1) = axes.row(2).cross(axes.row(0));
   return axes.cast<float>();
 }
@@ -154,9 +158,9 @@ double Coverage::percentOfFace(int face) const {
   return cells.empty() ? 0.0 : percentWell(first, first + count);
 }
 
-Coverage coverageOf(const PreviewPieces& pieces, const CoverageOptions& options) {
+Coverage coverageOf(const PreviewSurface& surface, const CoverageOptions& options) {
   Coverage result;
-  const SeenPoints seen = foreground(pieces, options);
+  const SeenPoints seen = foreground(surface, options);
   if (seen.p_mm.empty()) {
     return result;
   }

@@ -53,7 +53,8 @@ struct Coverage {
 /// points to and, seen from there, to the cell before it: surface seen from one side alone leaves
 /// the opposite face open, however its rim runs. A cell is asked for where any surface lies behind
 /// it. Ours; a foot is taken as roughly convex. Vertices on borders of blocks count twice.
+/// @param surface  of the foot alone (foot_preview.h): a wall would be the largest thing in the box
 /// @return no cells where there is no surface
-[[nodiscard]] Coverage coverageOf(const PreviewPieces& pieces, const CoverageOptions& options);
+[[nodiscard]] Coverage coverageOf(const PreviewSurface& surface, const CoverageOptions& options);
 
 }  // namespace tarsus

@@ -9,7 +9,6 @@
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/fusion/tsdf_volume.h"
-#include "reconstruction/pipeline/coverage.h"
 #include "reconstruction/pipeline/live_session.h"
 #include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/scene/ply.h"
@@ -245,20 +244,6 @@ std::string previewFigures(const StreamPass& run) {
          ", \"preview_blocks\": " + std::to_string(run.meshed_blocks);
 }
 
-/// What a viewer's thread does with the preview.
-std::string coverageFigures(const LivePreview& preview) {
-  const StopWatch joining;
-  const std::size_t faces = joinPieces(preview.pieces).mesh.faces.size();
-  const double join_ms = 1000.0 * joining.wall_s();
-  const StopWatch watch;
-  const Coverage coverage = coverageOf(preview.pieces, {});
-  return ", \"preview_faces\": " + std::to_string(faces) +
-         ", \"join_ms\": " + std::to_string(join_ms) +
-         ", \"coverage_ms\": " + std::to_string(1000.0 * watch.wall_s()) +
-         ", \"coverage_percent\": " + std::to_string(coverage.percent) +
-         ", \"well_seen_percent\": " + std::to_string(coverage.well_seen_percent);
-}
-
 /// Both passes frame by frame in turn, so that whatever else the computer does slows both alike.
 void stream(const Options& options) {
   const LoadedScan scan = load(options);
@@ -284,7 +269,7 @@ void stream(const Options& options) {
       ", \"trajectory_max_mm\": " + std::to_string(error.farthest_mm) +
       ", \"frames_per_s\": " + std::to_string(1000.0 / plain.clock.mean_ms());
   if (live) {
-    further += previewFigures(*live) + coverageFigures(*live->session.preview());
+    further += previewFigures(*live);
   }
   print(plain.clock, work_mb, model.blockCount(), further);
 }

@@ -10,11 +10,11 @@ namespace tarsus {
 namespace {
 
 /// Points of an ellipsoid with these half axes, turned about z, where `seen` says so.
-PreviewPieces ellipsoid(const Eigen::Vector3f& half_mm,
-                        const std::function<bool(const Eigen::Vector3f&)>& seen,
-                        float weight) {
+PreviewSurface ellipsoid(const Eigen::Vector3f& half_mm,
+                         const std::function<bool(const Eigen::Vector3f&)>& seen,
+                         float weight) {
   const Eigen::Matrix3f turn = Eigen::AngleAxisf(0.4F, Eigen::Vector3f::UnitZ()).toRotationMatrix();
-  auto piece = std::make_shared<PreviewPiece>();
+  PreviewSurface surface;
   constexpr int kPoints = 20000;
   for (int i = 0; i < kPoints; ++i) {
     // Fibonacci lattice: even over the sphere.
@@ -24,19 +24,19 @@ PreviewPieces ellipsoid(const Eigen::Vector3f& half_mm,
     const float r = std::sqrt(1.0F - z * z);
     const Eigen::Vector3f unit(r * std::cos(angle), r * std::sin(angle), z);
     if (seen(unit)) {
-      piece->mesh.vertices.push_back(turn * unit.cwiseProduct(half_mm) +
-                                     Eigen::Vector3f(50.0F, -20.0F, 400.0F));
-      piece->mesh.normals.push_back(turn * unit.cwiseQuotient(half_mm).normalized());
-      piece->weight.push_back(weight);
+      surface.mesh.vertices.push_back(turn * unit.cwiseProduct(half_mm) +
+                                      Eigen::Vector3f(50.0F, -20.0F, 400.0F));
+      surface.mesh.normals.push_back(turn * unit.cwiseQuotient(half_mm).normalized());
+      surface.weight.push_back(weight);
     }
   }
-  return {nullptr, piece};
+  return surface;
 }
 
 const Eigen::Vector3f kFootlike(120.0F, 45.0F, 35.0F);
 
 TEST(Coverage, NothingSeenHasNoCells) {
-  const Coverage coverage = coverageOf({nullptr}, {});
+  const Coverage coverage = coverageOf({}, {});
   EXPECT_TRUE(coverage.cells.empty());
   EXPECT_EQ(coverage.percent, 0.0);
   EXPECT_EQ(coverage.percentOfFace(0), 0.0);
@@ -81,7 +81,7 @@ TEST(Coverage, GrowsWithWhatIsSeen) {
 }
 
 TEST(Coverage, HalfSeenLeavesTheFarFaceOpen) {
-  const PreviewPieces half = ellipsoid(
+  const PreviewSurface half = ellipsoid(
       kFootlike, [](const Eigen::Vector3f& unit) { return unit.z() > 0.0F; }, 20.0F);
   const Coverage coverage = coverageOf(half, {});
   const double up = coverage.percentOfFace(4);
