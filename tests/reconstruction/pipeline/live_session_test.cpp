@@ -11,7 +11,7 @@
 namespace tarsus {
 namespace {
 
-constexpr int kFrames = 24;
+constexpr int kFrames = 18;
 
 const std::vector<RgbdFrame>& arcFrames() {
   static const std::vector<RgbdFrame> frames = [] {
@@ -61,7 +61,7 @@ TEST(LiveSession, RenewsThePreviewFiveTimesASecondOfTheScan) {
     }
   }
   // Every 6th frame at 30 frames a second.
-  EXPECT_EQ(renewed_after, (std::vector<int>{5, 11, 17, 23}));
+  EXPECT_EQ(renewed_after, (std::vector<int>{5, 11, 17}));
   EXPECT_FALSE(joinPieces(session.preview()->pieces).mesh.faces.empty());
 }
 
@@ -137,7 +137,8 @@ TEST(LiveSession, PreviewIsWholeWhenReadByAnotherThread) {
 TEST(LiveSession, PreparesFramesOnAnotherThread) {
   LiveSession alone(smallCamera(), {});
   LiveSession fed(smallCamera(), {});
-  for (const RgbdFrame& frame : arcFrames()) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const RgbdFrame& frame = arcFrames()[i];
     std::optional<PreparedFrame> prepared;
     std::thread([&] { prepared.emplace(fed.prepare(frame)); }).join();
     EXPECT_EQ(fed.push(*prepared).pose.scan_from_camera->matrix(),
