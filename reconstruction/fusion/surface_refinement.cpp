@@ -13,6 +13,8 @@ constexpr std::size_t kFramesAtOnce = 8;
 /// Poses and the sensor's own pattern err alike in neighbouring frames: more frames than this do
 /// not make the mean better. Ours.
 constexpr float kIndependentFrames = 25.0F;
+/// Sweeps before the last two need not see every frame: they bring vertices near.
+constexpr int kEnoughFramesAtFirst = 150;
 /// Colour is taken where the depth image agrees that this is the surface.
 constexpr float kSameSurface_mm = 2.0F;
 
@@ -54,28 +56,31 @@ struct LoadedView {
 /// Goes through all frames for all vertices, some frames at a time.
 class SurfaceObserver {
  public:
+  /// @param every_nth  of the tracked frames is used
   SurfaceObserver(const ScanArchive& frames,
                   const Trajectory& trajectory,
-                  const SurfaceRefinementOptions& options)
+                  const SurfaceRefinementOptions& options,
+                  int every_nth)
       : frames_(frames), trajectory_(trajectory), options_(options) {
+    int tracked = 0;
     for (std::size_t i = 0; i < trajectory.size(); ++i) {
-      if (trajectory[i].scan_from_camera) {
-        tracked_.push_back(i);
+      if (trajectory[i].scan_from_camera && tracked++ % every_nth == 0) {
+        used_.push_back(i);
       }
     }
   }
 
-  [[nodiscard]] int frameCount() const { return static_cast<int>(tracked_.size()); }
+  [[nodiscard]] int frameCount() const { return static_cast<int>(used_.size()); }
   [[nodiscard]] std::size_t batches() const {
-    return (tracked_.size() + kFramesAtOnce - 1) / kFramesAtOnce;
+    return (used_.size() + kFramesAtOnce - 1) / kFramesAtOnce;
   }
 
   [[nodiscard]] std::vector<LoadedView> load(std::size_t batch) const {
     const std::size_t first = batch * kFramesAtOnce;
-    std::vector<LoadedView> views(std::min(kFramesAtOnce, tracked_.size() - first));
+    std::vector<LoadedView> views(std::min(kFramesAtOnce, used_.size() - first));
     const RgbdCamera& camera = frames_.camera();
     parallelFor(static_cast<int>(views.size()), [&](int k) {
-      const std::size_t i = tracked_[first + static_cast<std::size_t>(k)];
+      const std::size_t i = used_[first + static_cast<std::size_t>(k)];
       const RigidTransform& pose = *trajectory_[i].scan_from_camera;
       LoadedView& view = views[static_cast<std::size_t>(k)];
       view.frame = frames_.frame(static_cast<int>(i));
@@ -134,7 +139,7 @@ class SurfaceObserver {
   const ScanArchive& frames_;
   const Trajectory& trajectory_;
   SurfaceRefinementOptions options_;
-  std::vector<std::size_t> tracked_;
+  std::vector<std::size_t> used_;
 };
 
 void moveVertices(const std::vector<HeightSums>& sums, double prior, ExtractedSurface& surface) {
@@ -188,11 +193,14 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
                                          const Job& job) {
   TARSUS_REQUIRE(static_cast<std::size_t>(frames.frameCount()) == trajectory.size(),
                  "one pose for each frame");
-  const SurfaceObserver observer(frames, trajectory, options);
+  const SurfaceObserver all(frames, trajectory, options, 1);
+  const SurfaceObserver some(
+      frames, trajectory, options, std::clamp(all.frameCount() / kEnoughFramesAtFirst, 1, 4));
   double kernel_mm = options.kernel_mm;
   for (int sweep = 0; sweep < options.sweeps;
        ++sweep, kernel_mm = std::max(options.least_kernel_mm, 0.7 * kernel_mm)) {
     const bool last = sweep + 1 == options.sweeps;
+    const SurfaceObserver& observer = sweep + 2 >= options.sweeps ? all : some;
     std::vector<HeightSums> heights(surface.mesh.vertices.size());
     std::vector<ColorSums> colors(last ? heights.size() : 0);
     for (std::size_t batch = 0; batch < observer.batches(); ++batch) {
@@ -212,7 +220,7 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
       surface.colors = meanColors(colors);
     }
   }
-  const int least = static_cast<int>(options.least_share_of_frames * observer.frameCount());
+  const int least = static_cast<int>(options.least_share_of_frames * all.frameCount());
   return withoutHardlySeen(surface, std::clamp(least, 1, options.most_needed));
 }
 

@@ -8,6 +8,7 @@ namespace {
 constexpr double kMaxLostFraction = 0.2;
 constexpr double kMaxResidual_mm = 2.0;
 constexpr double kMaxUnseenFraction = 0.3;
+constexpr double kMaxLoopResidual_mm = 1.0;
 constexpr double kMaxContradictingFraction = 0.02;
 constexpr double kMaxThroughShare = 0.015;
 
@@ -36,6 +37,18 @@ Warnings refusalReasons(const Reconstruction& reconstruction) {
                                 "the foot kept still.",
                                 *reconstruction.tracking_rmse_mm,
                                 kMaxResidual_mm)});
+  }
+  if (reconstruction.loop_residual_mm.value_or(0.0) > kMaxLoopResidual_mm) {
+    reasons.push_back({"loop_open",
+                       sentence("Where the camera came back, the surface is %.1f mm off (at most "
+                                "%.1f mm); scan again, moving slowly, with the foot kept still.",
+                                *reconstruction.loop_residual_mm,
+                                kMaxLoopResidual_mm)});
+  }
+  if (!reconstruction.loop_residual_mm && reconstruction.loops_unmeasured > 0) {
+    reasons.push_back({"loop_unmeasured",
+                       "Where the camera came back, the surface does not fit what it saw before; "
+                       "scan again, moving slowly, with the foot kept still."});
   }
   const double contradicting = static_cast<double>(reconstruction.frames_contradicting) /
                                static_cast<double>(std::max(1, reconstruction.frames_total));

@@ -123,7 +123,7 @@ json toJson(const Reconstruction& r, const ScanOptions& options, std::string_vie
           {"frames_contradicting", r.frames_contradicting},
           {"median_through_share", r.median_through_share},
           {"tracking_rmse_mm", orNull(r.tracking_rmse_mm)},
-          {"loop_residual_mm", nullptr},  // loops are not closed yet
+          {"loop_residual_mm", orNull(r.loop_residual_mm)},
           {"vertices", r.model.mesh.vertices.size()},
           {"faces", r.model.mesh.faces.size()},
           {"holes", r.holes},

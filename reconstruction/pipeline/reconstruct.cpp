@@ -1,6 +1,7 @@
 #include "reconstruction/pipeline/reconstruct.h"
 
 #include "reconstruction/fusion/frame_agreement.h"
+#include "reconstruction/fusion/loop_closure.h"
 #include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_cleanup.h"
 #include "reconstruction/fusion/surface_refinement.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// The foot is one surface; with the background kept, the scene has as many as it likes.
 constexpr double kLeastShareOfFoot = 0.02;
+/// Refinement finds its neighbours within about three times this.
+constexpr double kLoopRefinementCanClose_mm = 1.0;
 
 TexturedMesh withFusedColors(ExtractedSurface surface) {
   TexturedMesh model;
@@ -50,6 +53,7 @@ class ScanReconstruction {
     return followCamera()
         .and_then([&] { return findFoot(); })
         .and_then([&] { return refineOnCoarseField(); })
+        .and_then([&] { return closeLoops(); })
         .and_then([&] { return fuseSurface(); })
         .and_then([&] { return leaveOutContradictions(); })
         .and_then([&] { return chooseViews(); })
@@ -134,6 +138,38 @@ class ScanReconstruction {
     return {};
   }
 
+  /// Where the path comes back and its ends miss each other by more than refinement can pull
+  /// together, the graph of frames spreads that over the path, and refinement starts anew.
+  Expected<void> closeLoops() {
+    if (!mayMovePoses()) {
+      return {};
+    }
+    const auto report = checkLoops(scan_->archive, scan_->points, scan_->trajectory, {}, job_);
+    if (!report) {
+      return tl::unexpected(report.error());
+    }
+    clock_.end("check loops", 0);
+    if (report->residual_mm.value_or(0.0) <= kLoopRefinementCanClose_mm) {
+      return {};
+    }
+    scan_->trajectory = tarsus::closeLoops(scan_->trajectory, report->loops, {});
+    auto field = fuseScan(scan_->archive,
+                          scan_->trajectory,
+                          {},
+                          {.voxel_size_mm = options_.tracking.voxel_size_mm,
+                           .weighting = options_.tracking.weighting,
+                           .with_color = false},
+                          job_);
+    if (!field) {
+      return tl::unexpected(field.error());
+    }
+    scan_->model = std::move(*field);
+    region_.reset();
+    result_.cut.clear();
+    clock_.end("close loops", result_.frames_total);
+    return findFoot().and_then([&] { return refineOnCoarseField(); });
+  }
+
   /// Second stage: all frames anew into a fine volume, its surface, and that where the frames see
   /// it.
   Expected<void> fuseSurface() {
@@ -213,6 +249,12 @@ class ScanReconstruction {
       agreement = frameAgreement(surface_.mesh, scan_->archive, scan_->trajectory);
       wrong = contradictingFrames(agreement);
     }
+    const auto loops = checkLoops(scan_->archive, scan_->points, scan_->trajectory, {}, job_);
+    if (!loops) {
+      return tl::unexpected(loops.error());
+    }
+    result_.loop_residual_mm = loops->residual_mm;
+    result_.loops_unmeasured = loops->unmeasured;
     result_.frames_contradicting = static_cast<int>(wrong.size());
     result_.median_through_share = medianThroughShare(agreement);
     result_.trajectory = std::move(scan_->trajectory);

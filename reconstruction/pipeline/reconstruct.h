@@ -54,6 +54,8 @@ struct Reconstruction {
   int frames_total = 0;
   int frames_tracked = 0;
   int relocalisations = 0;
+  std::optional<double> loop_residual_mm;  ///< empty where the path never comes back
+  int loops_unmeasured = 0;                ///< the same place by the poses, but nothing fits
   int frames_contradicting = 0;            ///< still, after others were left out
   double median_through_share = 0.0;       ///< of readings behind the surface (frame_agreement.h)
   std::optional<double> tracking_rmse_mm;  ///< empty with known poses
