@@ -23,7 +23,8 @@ constexpr double kLargestStep_mm = 30.0;
 /// Steeper than 73 degrees, a coded-light reading errs too much. Less steep limits lose what fixes
 /// the camera sideways: poses were worse by a third at 66 degrees.
 constexpr float kLeastCosine = 0.3F;
-constexpr float kLargestRayStep_mm = 5.0F;
+/// A step along the ray stays well within the band in which the field is known.
+constexpr double kShareOfBand = 0.6;
 
 /// What one pass over the points adds up.
 struct Sums {
@@ -240,7 +241,9 @@ std::optional<RayOnSurface> meetSurface(const TsdfVolume& field,
     return std::nullopt;
   }
   const float approach = -sample.gradient.dot(ray);
-  if (approach < kLeastCosine || std::abs(sample.distance_mm) > kLargestRayStep_mm * approach) {
+  const double reach_mm = kShareOfBand * field.options().weighting.delta_mm;
+  if (approach < kLeastCosine || static_cast<double>(std::abs(sample.distance_mm)) >
+                                     reach_mm * static_cast<double>(approach)) {
     return std::nullopt;
   }
   // One step of Newton's; what is left of it enters the residual.

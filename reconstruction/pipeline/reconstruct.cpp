@@ -11,12 +11,23 @@
 #include "reconstruction/pipeline/stage_clock.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tarsus {
 namespace {
 
 /// The foot is one surface; with the background kept, the scene has as many as it likes.
 constexpr double kLeastShareOfFoot = 0.02;
+/// Fields for poses that are known badly, the widest first.
+struct WideField {
+  double voxel_size_mm;
+  double delta_mm;
+  int sweeps;
+};
+constexpr std::array kWideFields{WideField{4.0, 28.0, 4},
+                                 WideField{4.0, 24.0, 4},
+                                 WideField{3.0, 16.0, 4},
+                                 WideField{2.0, 10.0, 3}};
 /// Refinement finds its neighbours within about three times this.
 constexpr double kLoopRefinementCanClose_mm = 1.0;
 
@@ -51,6 +62,7 @@ class ScanReconstruction {
 
   Expected<Reconstruction> run() {
     return followCamera()
+        .and_then([&] { return approachFromKnownPoses(); })
         .and_then([&] { return findFoot(); })
         .and_then([&] { return refineOnCoarseField(); })
         .and_then([&] { return closeLoops(); })
@@ -90,6 +102,52 @@ class ScanReconstruction {
       result_.tracking_rmse_mm = scan_->rmse_mm;
     }
     clock_.end(options_.trajectory ? "match" : "track", result_.frames_total);
+    return {};
+  }
+
+  /// Known poses may be off by some millimetres, a degree: further than the tracking field's band
+  /// allows. A few rounds on wider fields bring them near.
+  Expected<void> approachFromKnownPoses() {
+    if (!options_.trajectory || !options_.refine_trajectory) {
+      return {};
+    }
+    for (const WideField& wide : kWideFields) {
+      auto field = fuseScan(scan_->archive,
+                            scan_->trajectory,
+                            {},
+                            {.voxel_size_mm = wide.voxel_size_mm,
+                             .weighting = {.epsilon_mm = 0.25 * wide.delta_mm,
+                                           .delta_mm = wide.delta_mm,
+                                           .sigma_per_mm2 = 4.0 / (wide.delta_mm * wide.delta_mm)},
+                             .with_color = false},
+                            job_);
+      if (!field) {
+        return tl::unexpected(field.error());
+      }
+      auto moved = refinePoses(*field,
+                               scan_->points,
+                               scan_->trajectory,
+                               {.sweeps = wide.sweeps,
+                                .kernel_mm = wide.delta_mm,
+                                .least_kernel_mm = 0.4 * wide.delta_mm},
+                               job_);
+      if (!moved) {
+        return tl::unexpected(moved.error());
+      }
+      scan_->trajectory = std::move(moved->trajectory);
+    }
+    auto field = fuseScan(scan_->archive,
+                          scan_->trajectory,
+                          {},
+                          {.voxel_size_mm = options_.tracking.voxel_size_mm,
+                           .weighting = options_.tracking.weighting,
+                           .with_color = false},
+                          job_);
+    if (!field) {
+      return tl::unexpected(field.error());
+    }
+    scan_->model = std::move(*field);
+    clock_.end("approach", result_.frames_total);
     return {};
   }
 
