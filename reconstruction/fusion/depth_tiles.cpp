@@ -9,14 +9,16 @@ DepthTiles::DepthTiles(const DepthPlanes& planes, float band_mm)
       columns_((intrinsics_.width + kTile_px - 1) / kTile_px),
       rows_((intrinsics_.height + kTile_px - 1) / kTile_px),
       tiles_(static_cast<std::size_t>(columns_ * rows_)) {
+  const auto pixel_rad = static_cast<float>(1.0 / std::min(intrinsics_.fx_px, intrinsics_.fy_px));
   for (int v = 0; v < intrinsics_.height; ++v) {
     Range* const row = tiles_.data() + (v / kTile_px) * columns_;
     for (int u = 0; u < intrinsics_.width; ++u) {
       const std::size_t i = planes.index(u, v);
       if (planes.quality[i] > 0.0F) {
         Range& tile = row[u / kTile_px];
-        // A band across an oblique plane is longer along the optical axis.
-        const float reach = band_mm / planes.quality[i];
+        // A band across an oblique plane is longer along the optical axis, and the plane itself
+        // rises within its pixel.
+        const float reach = (band_mm + planes.depth_mm[i] * pixel_rad) / planes.quality[i];
         tile.nearest_mm = std::min(tile.nearest_mm, planes.depth_mm[i] - reach);
         tile.farthest_mm = std::max(tile.farthest_mm, planes.depth_mm[i] + reach);
       }
