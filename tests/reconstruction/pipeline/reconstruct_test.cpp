@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 namespace tarsus {
 namespace {
@@ -122,6 +124,49 @@ TEST_F(ReconstructScan, WithTheBackgroundKeptThereIsMore) {
   EXPECT_GE(distancesToFoot(result->model.mesh, scene_->foot.mesh).back(), 50.0);
   EXPECT_FALSE(result->tracking_rmse_mm);
   EXPECT_LE(trajectoryRmse(result->trajectory, scene_->trajectory), 1e-9);
+}
+
+/// Poses as a bad rig would state them: each off on its own by up to 5 mm and a degree about the
+/// scene's middle, but for the first, which is the frame of reference.
+Trajectory offByFiveMillimetres(Trajectory trajectory) {
+  std::mt19937 dice(23);
+  const auto roll = [&] { return static_cast<double>(dice()) * 0x1.0p-31 - 1.0; };
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const double x = roll();
+    const double y = roll();
+    const Eigen::Vector3d direction = Eigen::Vector3d(x, y, roll()).normalized();
+    const double size = roll();
+    RigidTransform& pose = *trajectory[i].scan_from_camera;
+    const Eigen::Vector3d middle = pose * Eigen::Vector3d(0.0, 0.0, 400.0);
+    pose = Eigen::Translation3d(middle + 5.0 * size * direction) *
+           Eigen::AngleAxisd(size * std::numbers::pi / 180.0,
+                             direction.cross(Eigen::Vector3d::UnitX()).normalized()) *
+           Eigen::Translation3d(-middle) * pose;
+  }
+  return trajectory;
+}
+
+TEST_F(ReconstructScan, KnownPosesStayUnlessTheyMayBeRefined) {
+  ScanOptions options;
+  options.texture = false;
+  options.trajectory = offByFiveMillimetres(scene_->trajectory);
+  const auto stated = reconstructScan(opener(), options, {});
+  ASSERT_TRUE(stated) << describe(stated.error());
+  options.refine_trajectory = true;
+  const auto refined = reconstructScan(opener(), options, {});
+  ASSERT_TRUE(refined) << describe(refined.error());
+  ASSERT_EQ(stated->trajectory.size(), std::size_t{kFrames});
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    if (stated->trajectory[i].scan_from_camera) {  // frames may be left out
+      EXPECT_LE((stated->trajectory[i].scan_from_camera->matrix() -
+                 (*options.trajectory)[i].scan_from_camera->matrix())
+                    .norm(),
+                1e-9);
+    }
+  }
+  EXPECT_GE(trajectoryRmse(*options.trajectory, scene_->trajectory), 2.0);
+  EXPECT_LE(trajectoryRmse(refined->trajectory, scene_->trajectory), 1.0);
+  EXPECT_EQ(refined->frames_tracked, kFrames);
 }
 
 TEST_F(ReconstructScan, SameScanSameBitsWhateverTheThreads) {
