@@ -79,6 +79,23 @@ TEST(FrameAgreement, SomethingBeforeTheSurfaceIsNoContradiction) {
   EXPECT_TRUE(contradictingFrames(agreement).empty());
 }
 
+TEST(FrameAgreement, ThroughMeansMoreThanFourMillimetresBehind) {
+  const auto poses = arcPoses(4, 0.03);
+  const auto frames = framesOf(bumpyScene(), poses, Depth::Exact);
+  const Trajectory truth = trajectoryOf(poses);
+  const TriangleMesh surface = surfaceOf(frames, truth);
+  const auto pushedBack = [&](double mm) {
+    Trajectory trajectory = truth;
+    trajectory[1].scan_from_camera->pretranslate(Eigen::Vector3d(0.0, 0.0, mm));
+    return frameAgreement(surface, archiveOf(frames), trajectory)[1];
+  };
+  EXPECT_EQ(pushedBack(3.0).through_share, 0.0);
+  EXPECT_EQ(pushedBack(-6.0).through_share, 0.0);  // before the surface
+  EXPECT_GT(pushedBack(6.0).through_share, 0.5);   // the wall, and what of the bumps faces it
+  EXPECT_LT(pushedBack(3.0).agree_share, 0.2);     // 1.5 mm, and only steep sides move less
+  EXPECT_GT(pushedBack(1.0).agree_share, 0.95);
+}
+
 TEST(FrameAgreement, FramesWithoutPoseSayNothing) {
   const auto poses = arcPoses(4, 0.03);
   const auto frames = framesOf(bumpyScene(), poses, Depth::Exact);

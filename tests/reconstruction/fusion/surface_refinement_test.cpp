@@ -210,6 +210,25 @@ TEST(RefineSurface, FlyingPixelsAtASteepEdgePullNothing) {
   }
 }
 
+TEST(RefineSurface, NothingIsInterpolatedAcrossAStep) {
+  DepthImage depth(320, 240);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      depth.at(u, v) = u < 160 ? 380.0F : 420.0F;
+    }
+  }
+  const std::vector<RgbdFrame> frames(5, frameOf(std::move(depth), 0));
+  const std::vector<RigidTransform> poses(frames.size(), RigidTransform::Identity());
+  // Vertices 0.3 mm apart, a quarter of a pixel.
+  const auto refined =
+      refineSurface(wallSurface(6.0, 380.0), archiveOf(frames), trajectoryOf(poses), {}, {});
+  ASSERT_TRUE(refined);
+  ASSERT_GT(refined->mesh.vertices.size(), 500U);
+  for (const Eigen::Vector3f& p : refined->mesh.vertices) {
+    EXPECT_NEAR(p.z(), 380.0F, 0.001F) << p.transpose();
+  }
+}
+
 TEST(RefineSurface, StopsWhenAskedAndGivesTheSameBitsWithTwoThreads) {
   const auto poses = posesAllAround(350.0);
   const auto frames = archiveOf(framesOf(ball(), poses, Depth::Noisy));
