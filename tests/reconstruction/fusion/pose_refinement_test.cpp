@@ -128,7 +128,11 @@ TEST(RefinePoses, FieldFirstThenItsNewSurfaceAsTheReconstructionDoes) {
     ASSERT_TRUE(placed);
     const auto second = refinePoses(placed->mesh, scan.archive, first->trajectory, {}, {});
     ASSERT_TRUE(second);
-    EXPECT_LE(worstPose(second->trajectory, scan.truth), allowed_mm(depth));
+    // One turn of surface and poses, on vertices that 14 noisy frames place to 0.1 mm each, leaves
+    // a tenth of what was wrong; on the surface of the right poses it is half of that.
+    EXPECT_LE(
+        worstPose(second->trajectory, scan.truth),
+        depth == Depth::Exact ? allowed_mm(depth) : 0.13 * worstPose(scan.trajectory, scan.truth));
   }
 }
 

@@ -163,7 +163,7 @@ TEST(Subdivide, InterpolatesWhatVerticesCarry) {
     const auto level = static_cast<std::uint8_t>(200.0F * t);
     before.colors.push_back({level, 100, level});
     before.sigma_mm.push_back(0.1F + t);
-    before.observations.push_back(static_cast<std::uint16_t>(1000.0F * t));
+    before.observations.push_back(static_cast<std::uint16_t>(100.0F + 1000.0F * t));
   }
   const ExtractedSurface after =
       subdivide(before, std::vector<float>(before.mesh.vertices.size(), 1.0F), 100'000);
@@ -175,8 +175,21 @@ TEST(Subdivide, InterpolatesWhatVerticesCarry) {
     EXPECT_NEAR(after.colors[i].r, 200.0F * t, 2.0F);  // one rounding at each level
     EXPECT_EQ(after.colors[i].g, 100);
     EXPECT_NEAR(after.sigma_mm[i], 0.1F + t, 1e-5F);
-    EXPECT_NEAR(after.observations[i], 1000.0F * t, 4.0F);
+    EXPECT_NEAR(after.observations[i], 100.0F + 1000.0F * t, 4.0F);
     EXPECT_LT((after.mesh.normals[i] - Eigen::Vector3f::UnitZ()).norm(), 1e-6F);
+  }
+}
+
+TEST(Subdivide, WhatTouchesTheUnseenStaysUnseen) {
+  ExtractedSurface before = planeSurface(4.0, 4.0);
+  for (const Eigen::Vector3f& p : before.mesh.vertices) {
+    before.observations.push_back(p.x() < 0.0F ? 0 : 40);  // the left column was never seen
+  }
+  const ExtractedSurface after =
+      subdivide(before, std::vector<float>(before.mesh.vertices.size(), 1.0F), 100'000);
+  ASSERT_GT(after.mesh.vertices.size(), before.mesh.vertices.size());
+  for (std::size_t i = 0; i < after.mesh.vertices.size(); ++i) {
+    EXPECT_EQ(after.observations[i], after.mesh.vertices[i].x() < 0.0F ? 0 : 40);
   }
 }
 
