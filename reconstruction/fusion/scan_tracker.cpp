@@ -22,6 +22,12 @@ constexpr std::size_t kKeyframesTried = 8;
 /// After being lost, a pose is believed only when it is better than the usual limits.
 constexpr double kReliefInlierFraction = 0.6;
 constexpr double kReliefRmseShare = 0.7;
+/// So good a fit needs no look at the coarse field.
+constexpr double kNear_mm = 1.0;
+constexpr double kNearInliers = 0.75;
+/// The coarse field hardly changes from frame to frame: it gets one when the camera has moved.
+constexpr double kCoarseStep_mm = 6.0;
+constexpr double kCoarseStep_rad = 1.5 * std::numbers::pi / 180.0;
 constexpr double kFewInliers = 0.2;
 constexpr double kGoodShareOfKnown = 0.95;
 /// A surface that leaves more directions free than this (a plane: 3) does not hold the camera.
@@ -50,10 +56,10 @@ TsdfOptions volumeOptions(const TrackingOptions& options,
   return result;
 }
 
-bool farApart(const RigidTransform& a, const RigidTransform& b) {
+bool farApart(const RigidTransform& a, const RigidTransform& b, double mm, double rad) {
   const RigidTransform difference = a.inverse() * b;
-  return difference.translation().norm() > kKeyframeDistance_mm ||
-         Eigen::AngleAxisd(difference.linear()).angle() > kKeyframeAngle_rad;
+  return difference.translation().norm() > mm ||
+         Eigen::AngleAxisd(difference.linear()).angle() > rad;
 }
 
 }  // namespace
@@ -74,6 +80,7 @@ struct ScanTracker::State {
   TsdfVolume fine;
   std::optional<RigidTransform> last_pose;      ///< of the last tracked frame
   std::optional<RigidTransform> previous_pose;  ///< of the frame before it, if that was tracked
+  std::optional<RigidTransform> last_in_coarse;
   std::vector<RigidTransform> keyframes;
   bool lost = false;
   int relocalisations = 0;
@@ -81,13 +88,23 @@ struct ScanTracker::State {
   [[nodiscard]] AlignmentResult alignFrom(const PreparedFrame& points,
                                           const RigidTransform& start) const {
     const double delta = options.weighting.delta_mm;
-    AlignmentResult result = alignToField(coarse,
+    AlignmentResult result = alignToField(fine,
                                           points.few,
                                           start,
-                                          {.max_iterations = 12,
-                                           .kernel_mm = options.coarse_delta_mm,
+                                          {.max_iterations = 2,
+                                           .kernel_mm = delta,
                                            .inlier_mm = options.lost_rmse_mm,
-                                           .stop_step_mm = 0.5});
+                                           .stop_step_mm = 0.3,
+                                           .gradient_field = &coarse});
+    if (result.rmse_mm > kNear_mm || result.inlier_fraction < kNearInliers) {
+      result = alignToField(coarse,
+                            points.few,
+                            start,
+                            {.max_iterations = 12,
+                             .kernel_mm = options.coarse_delta_mm,
+                             .inlier_mm = options.lost_rmse_mm,
+                             .stop_step_mm = 0.5});
+    }
     result = alignToField(fine,
                           points.some,
                           result.scan_from_camera,
@@ -156,10 +173,13 @@ struct ScanTracker::State {
   }
 
   void fuse(const DepthPlanes& planes, const RigidTransform& pose) {
-    coarse.integrate(camera, planes, {}, pose);
+    if (!last_in_coarse || farApart(*last_in_coarse, pose, kCoarseStep_mm, kCoarseStep_rad)) {
+      coarse.integrate(camera, planes, {}, pose);
+      last_in_coarse = pose;
+    }
     fine.integrate(camera, planes, {}, pose);
     const bool isNew = std::all_of(keyframes.begin(), keyframes.end(), [&](const auto& known) {
-      return farApart(known, pose);
+      return farApart(known, pose, kKeyframeDistance_mm, kKeyframeAngle_rad);
     });
     if (isNew && keyframes.size() < kMaxKeyframes) {
       keyframes.push_back(pose);

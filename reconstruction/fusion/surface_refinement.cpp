@@ -13,7 +13,7 @@ constexpr std::size_t kFramesAtOnce = 8;
 /// Poses and the sensor's own pattern err alike in neighbouring frames: more frames than this do
 /// not make the mean better. Ours.
 constexpr float kIndependentFrames = 25.0F;
-/// Sweeps before the last two need not see every frame: they bring vertices near.
+/// So many frames are enough for the sweeps before the full ones.
 constexpr int kEnoughFramesAtFirst = 150;
 /// Colour is taken where the depth image agrees that this is the surface.
 constexpr float kSameSurface_mm = 2.0F;
@@ -200,7 +200,7 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
   for (int sweep = 0; sweep < options.sweeps;
        ++sweep, kernel_mm = std::max(options.least_kernel_mm, 0.7 * kernel_mm)) {
     const bool last = sweep + 1 == options.sweeps;
-    const SurfaceObserver& observer = sweep + 2 >= options.sweeps ? all : some;
+    const SurfaceObserver& observer = sweep + options.full_sweeps >= options.sweeps ? all : some;
     std::vector<HeightSums> heights(surface.mesh.vertices.size());
     std::vector<ColorSums> colors(last ? heights.size() : 0);
     for (std::size_t batch = 0; batch < observer.batches(); ++batch) {

@@ -9,6 +9,8 @@ namespace tarsus {
 
 struct SurfaceRefinementOptions {
   int sweeps = 4;
+  int full_sweeps = 2;     ///< the last ones see every frame; those before need not, they only
+                           ///< bring vertices near
   double kernel_mm = 3.0;  ///< Tukey's, of the first sweep; 0.7 of it with each, down to ...
   double least_kernel_mm = 1.25;
   double max_view_angle_deg = 72.0;
