@@ -15,8 +15,8 @@ namespace {
 /// Frames whose planes are fitted side by side before they are fused one after the other.
 constexpr std::size_t kFramesAtOnce = 8;
 /// How far from the first stage's surface the second stage may find its own, beyond its band: the
-/// steep walls of a crater are missing in the first, and with 1 mm they stayed so.
-constexpr double kSurfaceMayMove_mm = 4.0;
+/// steep walls of a crater are missing in the first.
+constexpr double kSurfaceMayMove_mm = 3.0;
 
 /// Reads, packs and prepares the next frame while the caller works on this one.
 class PreparedFrames {

@@ -199,10 +199,10 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
   double kernel_mm = options.kernel_mm;
   for (int sweep = 0; sweep < options.sweeps;
        ++sweep, kernel_mm = std::max(options.least_kernel_mm, 0.7 * kernel_mm)) {
-    const bool last = sweep + 1 == options.sweeps;
+    const bool final_sweep = sweep + 1 == options.sweeps;
     const SurfaceObserver& observer = sweep + options.full_sweeps >= options.sweeps ? all : some;
     std::vector<HeightSums> heights(surface.mesh.vertices.size());
-    std::vector<ColorSums> colors(last ? heights.size() : 0);
+    std::vector<ColorSums> colors(final_sweep ? heights.size() : 0);
     for (std::size_t batch = 0; batch < observer.batches(); ++batch) {
       if (job.stopped()) {
         return fail(ErrorCode::Cancelled);
@@ -211,16 +211,17 @@ Expected<ExtractedSurface> refineSurface(ExtractedSurface surface,
                        surface.mesh,
                        static_cast<float>(kernel_mm),
                        heights,
-                       last ? &colors : nullptr);
+                       final_sweep ? &colors : nullptr);
       const double batches = static_cast<double>(observer.batches());
       job.report("surface", (sweep + static_cast<double>(batch) / batches) / options.sweeps);
     }
     moveVertices(heights, options.prior_observations, surface);
-    if (last) {
+    if (final_sweep) {
       surface.colors = meanColors(colors);
     }
   }
-  const int least = static_cast<int>(options.least_share_of_frames * all.frameCount());
+  const SurfaceObserver& last = options.full_sweeps > 0 ? all : some;
+  const int least = static_cast<int>(options.least_share_of_frames * last.frameCount());
   return withoutHardlySeen(surface, std::clamp(least, 1, options.most_needed));
 }
 

@@ -257,7 +257,6 @@ class ScanReconstruction {
     SurfaceRefinementOptions first = options_.surface_refinement;
     if (mayMovePoses()) {
       first.sweeps = 1;
-      first.full_sweeps = 0;
       auto placed = refineSurface(surface_, scan_->archive, scan_->trajectory, first, job_);
       if (!placed) {
         return tl::unexpected(placed.error());
