@@ -90,7 +90,8 @@ bool comesBack(const DepthImage& depth, const Steps& steps, double mm_per_step) 
 }  // namespace
 
 ScanArchive::ScanArchive(const RgbdCamera& camera, int expected_frames)
-    : camera_(camera), color_step_(std::max(1, (expected_frames + kMostColorImages - 1) / kMostColorImages)) {}
+    : camera_(camera),
+      color_step_(std::max(1, (expected_frames + kMostColorImages - 1) / kMostColorImages)) {}
 
 void ScanArchive::add(const RgbdFrame& frame) {
   TARSUS_REQUIRE(
