@@ -112,12 +112,11 @@ double PageCanvas::widthOf(const QString& text, const TextStyle& style) const {
          dots_per_mm_;
 }
 
-void PageCanvas::text(const QPointF& at_mm,
-                      const QString& text,
-                      const TextStyle& style,
-                      Qt::Alignment alignment) {
-  const QFont font = fontOf(style);
-  const QFontMetricsF metrics(font, &writer_);
+QPointF PageCanvas::baselineOf(const QPointF& at_mm,
+                               const QString& text,
+                               const TextStyle& style,
+                               Qt::Alignment alignment) const {
+  const QFontMetricsF metrics(fontOf(style), &writer_);
   double x_mm = at_mm.x();
   if (alignment & Qt::AlignRight) {
     x_mm -= widthOf(text, style);
@@ -125,37 +124,30 @@ void PageCanvas::text(const QPointF& at_mm,
     x_mm -= 0.5 * widthOf(text, style);
   }
   const double middle = (at_mm.y() + 0.5 * style.line_pt * kMmPerPoint) * dots_per_mm_;
-  painter_.setFont(font);
+  return {x_mm * dots_per_mm_, middle + 0.5 * (metrics.ascent() - metrics.descent())};
+}
+
+void PageCanvas::text(const QPointF& at_mm,
+                      const QString& text,
+                      const TextStyle& style,
+                      Qt::Alignment alignment) {
+  painter_.setFont(fontOf(style));
   painter_.setPen(style.color);
-  painter_.drawText(
-      QPointF(x_mm * dots_per_mm_, middle + 0.5 * (metrics.ascent() - metrics.descent())),
-      printable(text, fonts_));
+  painter_.drawText(baselineOf(at_mm, text, style, alignment), printable(text, fonts_));
 }
 
 void PageCanvas::haloText(const QPointF& at_mm,
                           const QString& text,
                           const TextStyle& style,
                           Qt::Alignment alignment) {
-  const QFont font = fontOf(style);
-  const QFontMetricsF metrics(font, &writer_);
-  double x_mm = at_mm.x();
-  if (alignment & Qt::AlignRight) {
-    x_mm -= widthOf(text, style);
-  } else if (alignment & Qt::AlignHCenter) {
-    x_mm -= 0.5 * widthOf(text, style);
-  }
-  const double middle = (at_mm.y() + 0.5 * style.line_pt * kMmPerPoint) * dots_per_mm_;
   QPainterPath letters;
   // The rim is drawn as shapes in the device's own unit; the text over it stays text.
-  QFont sized = font;
+  QFont sized = fontOf(style);
   sized.setPixelSize(qRound(style.size_pt * writer_.resolution() / 72.0));
-  letters.addText(x_mm * dots_per_mm_,
-                  middle + 0.5 * (metrics.ascent() - metrics.descent()),
-                  sized,
-                  printable(text, fonts_));
+  letters.addText(baselineOf(at_mm, text, style, alignment), sized, printable(text, fonts_));
   painter_.strokePath(
       letters, QPen(Qt::white, 0.7 * dots_per_mm_, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  this->text({x_mm, at_mm.y()}, text, style);
+  this->text(at_mm, text, style, alignment);
 }
 
 void PageCanvas::textUpwards(const QPointF& middle_mm,

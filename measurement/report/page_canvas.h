@@ -54,6 +54,11 @@ class PageCanvas {
 
  private:
   [[nodiscard]] QFont fontOf(const TextStyle& style) const;
+  /// Where the first letter stands, in the device's dots.
+  [[nodiscard]] QPointF baselineOf(const QPointF& at_mm,
+                                   const QString& text,
+                                   const TextStyle& style,
+                                   Qt::Alignment alignment) const;
   double layRuns(const QPointF& top_left_mm,
                  double width_mm,
                  const std::vector<TextRun>& runs,

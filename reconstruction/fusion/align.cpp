@@ -1,6 +1,7 @@
 #include "reconstruction/fusion/align.h"
 
 #include "reconstruction/base/parallel.h"
+#include "reconstruction/fusion/rigid_motion.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -10,12 +11,7 @@
 namespace tarsus {
 namespace {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr int kPointsPerTask = 2048;
-/// Rotations are measured by how far they move a point this far from the centre.
-constexpr double kLever_mm = 100.0;
 /// A direction counts as fixed when the points' mean squared sensitivity along it (1 = all
 /// normals point that way) is above this. Ours.
 constexpr double kFreeDirection = 1e-3;
@@ -28,8 +24,8 @@ constexpr double kShareOfBand = 0.6;
 
 /// What one pass over the points adds up.
 struct Sums {
-  Matrix6d hessian = Matrix6d::Zero();  ///< upper triangle
-  Vector6d gradient = Vector6d::Zero();
+  MotionMatrix hessian = MotionMatrix::Zero();  ///< upper triangle
+  MotionVector gradient = MotionVector::Zero();
   double weight = 0.0;         ///< of all points
   double active_weight = 0.0;  ///< of those in the equations
   double cost = 0.0;
@@ -94,7 +90,7 @@ class Aligner {
     AlignmentResult best = describe(pose, sums);
     for (int i = 0; i < options_.max_iterations && sums.known >= 6; ++i) {
       int free_directions = 0;
-      const Vector6d step = solve(sums, free_directions);
+      const MotionVector step = solve(sums, free_directions);
       const RigidTransform candidate = moved(pose, step);
       sums = evaluate(candidate);
       AlignmentResult result = describe(candidate, sums);
@@ -136,7 +132,7 @@ class Aligner {
     const Eigen::Vector3f center = (pose * center_camera_).cast<float>();
     const auto kernel = static_cast<float>(options_.kernel_mm);
     const auto inlier = static_cast<float>(options_.inlier_mm);
-    constexpr auto kPerLever = static_cast<float>(1.0 / kLever_mm);
+    constexpr auto kPerLever = static_cast<float>(1.0 / kMotionLever_mm);
     TaskSums equations;
     Sums sums;
     for (const AlignmentPoint& point : points) {
@@ -185,13 +181,13 @@ class Aligner {
   }
 
   /// Solves in the eigenvectors of the normal equations and leaves weak ones alone.
-  static Vector6d solve(const Sums& sums, int& free_directions) {
-    const Matrix6d hessian = sums.hessian.selfadjointView<Eigen::Upper>();
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(hessian /
-                                                        std::max(sums.active_weight, 1e-9));
-    const Vector6d along =
+  static MotionVector solve(const Sums& sums, int& free_directions) {
+    const MotionMatrix hessian = sums.hessian.selfadjointView<Eigen::Upper>();
+    const Eigen::SelfAdjointEigenSolver<MotionMatrix> eigen(hessian /
+                                                            std::max(sums.active_weight, 1e-9));
+    const MotionVector along =
         eigen.eigenvectors().transpose() * (sums.gradient / std::max(sums.active_weight, 1e-9));
-    Vector6d step = Vector6d::Zero();
+    MotionVector step = MotionVector::Zero();
     free_directions = 0;
     for (int i = 0; i < 6; ++i) {
       if (eigen.eigenvalues()[i] < kFreeDirection) {
@@ -201,25 +197,18 @@ class Aligner {
       step -= eigen.eigenvectors().col(i) * (along[i] / eigen.eigenvalues()[i]);
     }
     const double length = stepLength(step);
-    return length > kLargestStep_mm ? Vector6d(step * (kLargestStep_mm / length)) : step;
+    return length > kLargestStep_mm ? MotionVector(step * (kLargestStep_mm / length)) : step;
   }
 
-  static double stepLength(const Vector6d& step) {
+  static double stepLength(const MotionVector& step) {
     return step.head<3>().norm() + step.tail<3>().norm();
   }
 
-  /// Rotates about the points' centre, then shifts: exp of the rotation, exact for any angle.
-  [[nodiscard]] RigidTransform moved(const RigidTransform& pose, const Vector6d& step) const {
-    const Eigen::Vector3d rotation = step.head<3>() / kLever_mm;
-    const double angle = rotation.norm();
-    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-    if (angle > 0.0) {
-      turn = Eigen::AngleAxisd(angle, rotation / angle);
-    }
-    const Eigen::Vector3d center = pose * center_camera_;
-    RigidTransform result = RigidTransform::Identity();
-    result.linear() = (turn * Eigen::Quaterniond(pose.linear())).normalized().toRotationMatrix();
-    result.translation() = center + step.tail<3>() + turn * (pose.translation() - center);
+  /// Turned about the points' centre and shifted; a scan adds up thousands of these, so the turn is
+  /// made a proper one again.
+  [[nodiscard]] RigidTransform moved(const RigidTransform& pose, const MotionVector& step) const {
+    RigidTransform result = motionOf(step, pose * center_camera_) * pose;
+    result.linear() = Eigen::Quaterniond(result.linear()).normalized().toRotationMatrix();
     return result;
   }
 

@@ -1,6 +1,7 @@
 #include "reconstruction/fusion/pose_adjustment.h"
 
 #include "reconstruction/base/parallel.h"
+#include "reconstruction/fusion/rigid_motion.h"
 
 #include <Eigen/Cholesky>
 
@@ -12,11 +13,7 @@ namespace tarsus {
 namespace {
 
 using Vector6f = Eigen::Matrix<float, 6, 1>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Rotations are measured by how far they move a point this far from the centre.
-constexpr double kLever_mm = 100.0;
 /// Patches are cubes of this side; within one, the field's shape is believed.
 constexpr float kPatch_mm = 8.0F;
 /// Neighbouring frames keep their motion in directions that the surface leaves free: this share of
@@ -34,8 +31,8 @@ struct PatchTerm {
 };
 
 struct FrameTerm {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
+  MotionMatrix hessian = MotionMatrix::Zero();
+  MotionVector gradient = MotionVector::Zero();
   std::vector<PatchTerm> patches;
 };
 
@@ -43,18 +40,6 @@ struct FrameTerm {
 std::int64_t cellOf(const Eigen::Vector3f& p) {
   const Eigen::Vector3i cell = (p / kPatch_mm).array().floor().cast<int>() + (1 << 20);
   return (std::int64_t{cell.x()} << 42) | (std::int64_t{cell.y()} << 21) | std::int64_t{cell.z()};
-}
-
-/// A rigid motion of the scan about its centre, from 3 turns (times the lever) and 3 shifts.
-RigidTransform motionOf(const Vector6d& step, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d rotation = step.head<3>() / kLever_mm;
-  const double angle = rotation.norm();
-  RigidTransform motion = RigidTransform::Identity();
-  if (angle > 0.0) {
-    motion.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  }
-  motion.translation() = center + step.tail<3>() - motion.linear() * center;
-  return motion;
 }
 
 }  // namespace
@@ -74,7 +59,7 @@ struct PoseAdjustment::State {
       linearise(static_cast<std::size_t>(i), static_cast<float>(kernel_mm));
     });
     numberPatches();
-    const std::vector<Vector6d> steps = solve();
+    const std::vector<MotionVector> steps = solve();
     double largest = 0.0;
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       poses_[i] = motionOf(steps[i], center_) * poses_[i];
@@ -97,7 +82,7 @@ struct PoseAdjustment::State {
       Vector6f jacobian;
     };
     const Eigen::Vector3f center = center_.cast<float>();
-    constexpr auto kPerLever = static_cast<float>(1.0 / kLever_mm);
+    constexpr auto kPerLever = static_cast<float>(1.0 / kMotionLever_mm);
     std::vector<Keyed> keyed;
     for (const PoseObservation& seen : observe_(i, poses_[i])) {
       const std::int64_t cell = cellOf(seen.p);
@@ -132,7 +117,7 @@ struct PoseAdjustment::State {
                                                               static_cast<double>(entry.weight));
       term.gradient += static_cast<double>(entry.residual) * weighted.cast<double>();
     }
-    term.hessian = Matrix6d(term.hessian.selfadjointView<Eigen::Upper>());
+    term.hessian = MotionMatrix(term.hessian.selfadjointView<Eigen::Upper>());
     terms_[i] = std::move(term);
   }
 
@@ -167,7 +152,7 @@ struct PoseAdjustment::State {
   }
 
   /// Reduced normal equations times x.
-  [[nodiscard]] std::vector<Vector6d> multiplied(const std::vector<Vector6d>& x) const {
+  [[nodiscard]] std::vector<MotionVector> multiplied(const std::vector<MotionVector>& x) const {
     std::vector<double> patch_motion(patch_weights_.size(), 0.0);
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const Vector6f step = x[i].cast<float>();
@@ -179,10 +164,10 @@ struct PoseAdjustment::State {
     for (std::size_t b = 0; b < patch_motion.size(); ++b) {
       patch_motion[b] /= patch_weights_[b];
     }
-    std::vector<Vector6d> y(x.size());
+    std::vector<MotionVector> y(x.size());
     parallelFor(static_cast<int>(x.size()), [&](int frame) {
       const auto i = static_cast<std::size_t>(frame);
-      Vector6d sum = terms_[i].hessian * x[i];
+      MotionVector sum = terms_[i].hessian * x[i];
       for (const PatchTerm& patch : terms_[i].patches) {
         sum -= patch.jacobian.cast<double>() * patch_motion[static_cast<std::size_t>(patch.patch)];
       }
@@ -197,7 +182,7 @@ struct PoseAdjustment::State {
     return y;
   }
 
-  static double dot(const std::vector<Vector6d>& a, const std::vector<Vector6d>& b) {
+  static double dot(const std::vector<MotionVector>& a, const std::vector<MotionVector>& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       sum += a[i].dot(b[i]);
@@ -207,28 +192,28 @@ struct PoseAdjustment::State {
 
   /// Conjugate gradients, preconditioned by each frame's own 6 x 6 block. All frames may move
   /// together at no cost; the caller puts the first one back.
-  [[nodiscard]] std::vector<Vector6d> solve() const {
+  [[nodiscard]] std::vector<MotionVector> solve() const {
     const std::size_t n = terms_.size();
-    std::vector<Eigen::LDLT<Matrix6d>> blocks(n);
-    std::vector<Vector6d> r(n);
+    std::vector<Eigen::LDLT<MotionMatrix>> blocks(n);
+    std::vector<MotionVector> r(n);
     for (std::size_t i = 0; i < n; ++i) {
-      blocks[i].compute(terms_[i].hessian + 2.0 * smoothness_ * Matrix6d::Identity());
+      blocks[i].compute(terms_[i].hessian + 2.0 * smoothness_ * MotionMatrix::Identity());
       r[i] = -terms_[i].gradient;
     }
-    const auto precondition = [&](const std::vector<Vector6d>& residual) {
-      std::vector<Vector6d> z(n);
+    const auto precondition = [&](const std::vector<MotionVector>& residual) {
+      std::vector<MotionVector> z(n);
       for (std::size_t i = 0; i < n; ++i) {
         z[i] = blocks[i].solve(residual[i]);
       }
       return z;
     };
-    std::vector<Vector6d> x(n, Vector6d::Zero());
-    std::vector<Vector6d> z = precondition(r);
-    std::vector<Vector6d> direction = z;
+    std::vector<MotionVector> x(n, MotionVector::Zero());
+    std::vector<MotionVector> z = precondition(r);
+    std::vector<MotionVector> direction = z;
     double rz = dot(r, z);
     const double enough = kRelativeResidual * kRelativeResidual * rz;
     for (int k = 0; k < kMaxIterations && rz > enough && rz > 0.0; ++k) {
-      const std::vector<Vector6d> a_direction = multiplied(direction);
+      const std::vector<MotionVector> a_direction = multiplied(direction);
       const double curvature = dot(direction, a_direction);
       if (!(curvature > 0.0)) {
         break;
@@ -249,7 +234,7 @@ struct PoseAdjustment::State {
     return x;
   }
 
-  void updateHeights(const std::vector<Vector6d>& steps) {
+  void updateHeights(const std::vector<MotionVector>& steps) {
     std::vector<double> sums = patch_residuals_;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const Vector6f step = steps[i].cast<float>();

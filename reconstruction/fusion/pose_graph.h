@@ -1,22 +1,12 @@
 #pragma once
 
-#include "reconstruction/scene/frame.h"
-
-#include <Eigen/Core>
+#include "reconstruction/fusion/rigid_motion.h"
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace tarsus {
-
-/// A rigid motion as six numbers in mm: turn times 100 mm, then the shift of the point it is
-/// taken about.
-using MotionVector = Eigen::Matrix<double, 6, 1>;
-using MotionMatrix = Eigen::Matrix<double, 6, 6>;
-
-/// Turns are measured by how far they move a point this far from the centre.
-constexpr double kMotionLever_mm = 100.0;
 
 /// What is known about one pose seen from another.
 struct PoseEdge {

@@ -42,17 +42,6 @@ struct Sums {
   }
 };
 
-RigidTransform motionOf(const MotionVector& vector, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d rotation = vector.head<3>() / kMotionLever_mm;
-  const double angle = rotation.norm();
-  RigidTransform motion = RigidTransform::Identity();
-  if (angle > 0.0) {
-    motion.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  }
-  motion.translation() = center + vector.tail<3>() - motion.linear() * center;
-  return motion;
-}
-
 MotionVector vectorOf(const RigidTransform& motion, const Eigen::Vector3d& center) {
   const Eigen::AngleAxisd turn(motion.linear());
   MotionVector vector;

@@ -136,6 +136,13 @@ class ScanReconstruction {
       }
       scan_->trajectory = std::move(moved->trajectory);
     }
+    auto made = makeModelAnew();
+    clock_.end("approach", result_.frames_total);
+    return made;
+  }
+
+  /// The tracking field from the poses as they are now.
+  Expected<void> makeModelAnew() {
     auto field = fuseScan(scan_->archive,
                           scan_->trajectory,
                           {},
@@ -147,11 +154,13 @@ class ScanReconstruction {
       return tl::unexpected(field.error());
     }
     scan_->model = std::move(*field);
-    clock_.end("approach", result_.frames_total);
     return {};
   }
 
   Expected<void> findFoot() {
+    if (options_.keep_background && !options_.region) {
+      return {};  // the whole scene is kept
+    }
     const ExtractedSurface scene = scan_->model.extractSurface(options_.min_weight);
     ExtractedSurface foot = options_.keep_background ? scene : withoutBackground(scene);
     if (options_.region) {
@@ -211,17 +220,9 @@ class ScanReconstruction {
       return {};
     }
     scan_->trajectory = tarsus::closeLoops(scan_->trajectory, report->loops, {});
-    auto field = fuseScan(scan_->archive,
-                          scan_->trajectory,
-                          {},
-                          {.voxel_size_mm = options_.tracking.voxel_size_mm,
-                           .weighting = options_.tracking.weighting,
-                           .with_color = false},
-                          job_);
-    if (!field) {
-      return tl::unexpected(field.error());
+    if (auto made = makeModelAnew(); !made) {
+      return made;
     }
-    scan_->model = std::move(*field);
     region_.reset();
     result_.cut.clear();
     clock_.end("close loops", result_.frames_total);
@@ -293,6 +294,10 @@ class ScanReconstruction {
   Expected<void> leaveOutContradictions() {
     auto agreement = frameAgreement(surface_.mesh, scan_->archive, scan_->trajectory);
     auto wrong = contradictingFrames(agreement);
+    // The first camera is the frame of reference: it cannot go, it can only count against the scan.
+    const auto first = std::ranges::find_if(
+        scan_->trajectory, [](const FramePose& pose) { return pose.scan_from_camera.has_value(); });
+    std::erase(wrong, static_cast<std::size_t>(first - scan_->trajectory.begin()));
     if (!wrong.empty()) {
       for (const std::size_t i : wrong) {
         scan_->trajectory[i].scan_from_camera.reset();
@@ -305,7 +310,6 @@ class ScanReconstruction {
         return fused;
       }
       agreement = frameAgreement(surface_.mesh, scan_->archive, scan_->trajectory);
-      wrong = contradictingFrames(agreement);
     }
     const auto loops = checkLoops(scan_->archive, scan_->points, scan_->trajectory, {}, job_);
     if (!loops) {
@@ -313,7 +317,7 @@ class ScanReconstruction {
     }
     result_.loop_residual_mm = loops->residual_mm;
     result_.loops_unmeasured = loops->unmeasured;
-    result_.frames_contradicting = static_cast<int>(wrong.size());
+    result_.frames_contradicting = static_cast<int>(contradictingFrames(agreement).size());
     result_.median_through_share = medianThroughShare(agreement);
     result_.trajectory = std::move(scan_->trajectory);
     scan_.reset();
