@@ -1,7 +1,7 @@
 #include "reconstruction/fusion/align.h"
 
 #include "reconstruction/base/parallel.h"
-#include "reconstruction/fusion/rigid_motion.h"
+#include "reconstruction/scene/rigid_motion.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reconstruction/fusion/rigid_motion.h"
+#include "reconstruction/scene/rigid_motion.h"
 
 #include <cstddef>
 #include <span>

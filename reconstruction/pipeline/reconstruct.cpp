@@ -353,11 +353,13 @@ class ScanReconstruction {
       return tl::unexpected(textured.error());
     }
     const TexturedMesh plain = withFusedColors(std::move(surface_));
-    result_.photometric_rmse_before =
-        photometricRmse(plain, result_.camera, result_.keyframes, options_.color);
-    result_.photometric_rmse_after =
-        photometricRmse(*textured, result_.camera, result_.keyframes, options_.color);
-    result_.model = std::move(*textured);
+    const auto rmse = [&](const TexturedMesh& model) {
+      return photometricRmse(
+          model, result_.camera, result_.keyframes, textured->placements, options_.color);
+    };
+    result_.photometric_rmse_before = rmse(plain);
+    result_.photometric_rmse_after = rmse(textured->model);
+    result_.model = std::move(textured->model);
     clock_.end("color", 0);
     return {};
   }

@@ -3,6 +3,8 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/base/job.h"
 #include "reconstruction/fusion/tsdf_volume.h"
+#include "reconstruction/texture/color_alignment.h"
+#include "reconstruction/texture/color_fit.h"
 #include "reconstruction/texture/keyframes.h"
 
 #include <span>
@@ -21,26 +23,40 @@ struct ColorMapOptions {
   double edge_margin_px = 2.0;  ///< no colour from so near to a jump of the model's depth
   double edge_fade_px = 8.0;    ///< full weight so far from edges of model and image
   bool level_exposure = true;   ///< one gain per image and channel, their median kept
+  bool align = true;            ///< move the pictures until they agree
+  ColorAlignmentOptions alignment;
+  ColorFitOptions fit;
+};
+
+/// What colouring gives.
+struct ColoredSurface {
+  TexturedMesh model;
+  std::vector<PicturePlacement> placements;  ///< of the keyframes, as alignment left them
+  std::vector<Eigen::Vector3f> gains;        ///< of the keyframes
+  ColorAlignment alignment;
 };
 
 /// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
-/// marked `unseen` and filled from its neighbours, never black.
+/// marked `unseen` and filled from its neighbours, never black. Stopped during alignment, it goes on
+/// with what alignment had reached.
 /// @param surface  scan frame [mm]; need not be closed; its colours are the fallback
 /// @return the subdivided mesh; original vertices keep their positions to the last bit and come
 /// first
-/// @errors Cancelled, KeyframesMissing, SurfaceEmpty
-[[nodiscard]] Expected<TexturedMesh> colorSurface(const ExtractedSurface& surface,
-                                                  const RgbdCamera& camera,
-                                                  std::span<const Keyframe> keyframes,
-                                                  const ColorMapOptions& options,
-                                                  const Job& job);
+/// @errors KeyframesMissing, SurfaceEmpty, CameraFactsInvalid
+[[nodiscard]] Expected<ColoredSurface> colorSurface(const ExtractedSurface& surface,
+                                                    const RgbdCamera& camera,
+                                                    std::span<const Keyframe> keyframes,
+                                                    const ColorMapOptions& options,
+                                                    const Job& job);
 
 /// Photometric RMSE [grey levels] over seen vertices and keyframes: luminance of each vertex
 /// against the keyframes that see it, after one gain for each keyframe, since exposure is no
 /// misalignment.
+/// @param placements  of the keyframes
 [[nodiscard]] double photometricRmse(const TexturedMesh& model,
                                      const RgbdCamera& camera,
                                      std::span<const Keyframe> keyframes,
+                                     std::span<const PicturePlacement> placements,
                                      const ColorMapOptions& options);
 
 }  // namespace tarsus

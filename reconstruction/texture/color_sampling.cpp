@@ -1,12 +1,19 @@
 #include "reconstruction/texture/color_sampling.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tarsus {
 namespace {
 
-Eigen::Vector3f toVector(Rgb8 c) {
-  return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+/// Weights of the four samples around a place `t` after the second.
+std::array<float, 4> catmullRom(float t) {
+  const float t2 = t * t;
+  const float t3 = t2 * t;
+  return {0.5F * (-t + 2.0F * t2 - t3),
+          0.5F * (2.0F - 5.0F * t2 + 3.0F * t3),
+          0.5F * (t + 4.0F * t2 - 3.0F * t3),
+          0.5F * (t3 - t2)};
 }
 
 }  // namespace
@@ -17,33 +24,36 @@ Eigen::Vector3f sampleColor(const ColorImage& image, float u, float v) {
   const float a = u - static_cast<float>(left);
   const float b = v - static_cast<float>(top);
   const Eigen::Vector3f upper =
-      (1.0F - a) * toVector(image.at(left, top)) + a * toVector(image.at(left + 1, top));
+      (1.0F - a) * colorVector(image.at(left, top)) + a * colorVector(image.at(left + 1, top));
   const Eigen::Vector3f lower =
-      (1.0F - a) * toVector(image.at(left, top + 1)) + a * toVector(image.at(left + 1, top + 1));
+      (1.0F - a) * colorVector(image.at(left, top + 1)) + a * colorVector(image.at(left + 1, top + 1));
   return (1.0F - b) * upper + b * lower;
 }
 
-IntensityGradient intensityGradient(const ColorImage& image) {
-  const int width = image.width();
-  const int height = image.height();
-  IntensityGradient result{
-      Image<float>(width, height), Image<float>(width, height), Image<float>(width, height)};
-  std::transform(
-      image.pixels().begin(), image.pixels().end(), result.intensity.pixels().begin(), [](Rgb8 c) {
-        return intensityOf(toVector(c));
-      });
-  const Image<float>& f = result.intensity;
-  for (int v = 1; v + 1 < height; ++v) {
-    for (int u = 1; u + 1 < width; ++u) {
-      const float right = f.at(u + 1, v - 1) + 2.0F * f.at(u + 1, v) + f.at(u + 1, v + 1);
-      const float left = f.at(u - 1, v - 1) + 2.0F * f.at(u - 1, v) + f.at(u - 1, v + 1);
-      const float lower = f.at(u - 1, v + 1) + 2.0F * f.at(u, v + 1) + f.at(u + 1, v + 1);
-      const float upper = f.at(u - 1, v - 1) + 2.0F * f.at(u, v - 1) + f.at(u + 1, v - 1);
-      result.du.at(u, v) = (right - left) / 8.0F;
-      result.dv.at(u, v) = (lower - upper) / 8.0F;
+Eigen::Vector3f sampleColorBicubic(const ColorImage& image, float u, float v) {
+  const int left = std::clamp(static_cast<int>(u), 0, image.width() - 2);
+  const int top = std::clamp(static_cast<int>(v), 0, image.height() - 2);
+  const std::array<float, 4> across = catmullRom(u - static_cast<float>(left));
+  const std::array<float, 4> down = catmullRom(v - static_cast<float>(top));
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (int j = 0; j < 4; ++j) {
+    const int row = std::clamp(top + j - 1, 0, image.height() - 1);
+    Eigen::Vector3f line = Eigen::Vector3f::Zero();
+    for (int i = 0; i < 4; ++i) {
+      const int column = std::clamp(left + i - 1, 0, image.width() - 1);
+      line += across[static_cast<std::size_t>(i)] * colorVector(image.at(column, row));
     }
+    sum += down[static_cast<std::size_t>(j)] * line;
   }
-  return result;
+  return sum;
+}
+
+Image<float> intensityImage(const ColorImage& image) {
+  Image<float> intensity(image.width(), image.height());
+  std::ranges::transform(image.pixels(), intensity.pixels().begin(), [](Rgb8 c) {
+    return intensityOf(colorVector(c));
+  });
+  return intensity;
 }
 
 }  // namespace tarsus

@@ -1,7 +1,6 @@
 #include "reconstruction/texture/keyframe_view.h"
 
 #include "reconstruction/base/parallel.h"
-#include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/texture/color_sampling.h"
 #include "reconstruction/texture/edge_weight.h"
 
@@ -21,28 +20,6 @@ EdgeWeightOptions edgeOptions(const RgbdCamera& camera, const ColorMapOptions& o
           .step_per_depth = kStepFootprints / camera.color.fx_px,
           .margin_px = options.edge_margin_px,
           .fade_px = options.edge_fade_px};
-}
-
-DepthImage renderDepth(const MeshIndex& index,
-                       const Intrinsics& intrinsics,
-                       const RigidTransform& scan_from_color) {
-  DepthImage depth(intrinsics.width, intrinsics.height);
-  const Eigen::Vector3f origin = scan_from_color.translation().cast<float>();
-  std::vector<Eigen::Vector3f> directions(static_cast<std::size_t>(intrinsics.width));
-  std::vector<MeshIndex::RayHit> hits(directions.size());
-  for (int v = 0; v < intrinsics.height; ++v) {
-    for (int u = 0; u < intrinsics.width; ++u) {
-      const Eigen::Vector3d direction = scan_from_color.linear() * intrinsics.ray(u, v);
-      directions[static_cast<std::size_t>(u)] = direction.cast<float>();
-    }
-    index.castRays(origin, directions, hits);
-    for (int u = 0; u < intrinsics.width; ++u) {
-      const MeshIndex::RayHit& hit = hits[static_cast<std::size_t>(u)];
-      // The direction has z = 1 in the camera, so its multiple is the depth.
-      depth.at(u, v) = hit.face >= 0 ? hit.distance : 0.0F;
-    }
-  }
-  return depth;
 }
 
 /// The fourth power makes an image at blur 0.5 count a quarter of one at 0.3: our choice, strong
@@ -71,17 +48,19 @@ Expected<void> checkImages(const RgbdCamera& camera, std::span<const Keyframe> k
 
 KeyframeView::KeyframeView(const RgbdCamera& camera,
                            const Keyframe& keyframe,
+                           PicturePlacement placement,
                            const ColorMapOptions& options,
-                           DepthImage model_depth,
+                           SurfaceImage first_surface,
                            float sharpness)
     : keyframe_(&keyframe),
       color_(camera.color),
       depth_(camera.depth),
-      color_from_scan_(
-          (camera.color_from_depth * keyframe.scan_from_camera.inverse()).cast<float>()),
-      depth_from_scan_(keyframe.scan_from_camera.inverse().cast<float>()),
-      model_depth_(std::move(model_depth)),
-      edge_weight_(edgeWeight(model_depth_, edgeOptions(camera, options))),
+      color_from_scan_(placement.color_from_scan.cast<float>()),
+      depth_from_scan_(
+          (camera.color_from_depth.inverse() * placement.color_from_scan).cast<float>()),
+      warp_(std::move(placement.warp)),
+      first_surface_(std::move(first_surface)),
+      edge_weight_(edgeWeight(first_surface_.depth_mm, edgeOptions(camera, options))),
       sharpness_(sharpness),
       focal_px_(static_cast<float>(0.5 * (camera.color.fx_px + camera.color.fy_px))),
       min_cosine_(
@@ -110,12 +89,20 @@ std::optional<Observation> KeyframeView::observe(const Eigen::Vector3f& p_scan,
   if (trust <= 0.0F || !isFirstSurface(u, v, p.z()) || isBehindMeasured(p_scan)) {
     return std::nullopt;
   }
+  const Eigen::Vector2f place = warp_.warped({u, v});
+  if (!insideForSampling(color_.width, color_.height, place.x(), place.y())) {
+    return std::nullopt;
+  }
   const float weight = cosine * cosine / (p.z() * p.z()) * sharpness_ * trust;
-  return Observation{.u = u, .v = v, .depth_mm = p.z(), .weight = weight};
+  return Observation{.u = place.x(), .v = place.y(), .depth_mm = p.z(), .weight = weight};
 }
 
 Eigen::Vector3f KeyframeView::color(const Observation& observation) const {
   return sampleColor(keyframe_->frame.color, observation.u, observation.v);
+}
+
+Eigen::Vector3f KeyframeView::sharpColor(const Observation& observation) const {
+  return sampleColorBicubic(keyframe_->frame.color, observation.u, observation.v);
 }
 
 bool KeyframeView::isFirstSurface(float u, float v, float depth_mm) const {
@@ -123,7 +110,7 @@ bool KeyframeView::isFirstSurface(float u, float v, float depth_mm) const {
   const int top = static_cast<int>(v);
   // One of the four pixels around is enough: at the model's rim the others may miss it.
   for (int k = 0; k < 4; ++k) {
-    const float first = model_depth_.at(left + k % 2, top + k / 2);
+    const float first = first_surface_.depth_mm.at(left + k % 2, top + k / 2);
     if (first > 0.0F && depth_mm - first <= visibility_depth_mm_) {
       return true;
     }
@@ -147,11 +134,23 @@ bool KeyframeView::isBehindMeasured(const Eigen::Vector3f& p_scan) const {
   return depth > 0.0F && p.z() - depth > sensor_occlusion_mm_;
 }
 
+std::vector<PicturePlacement> placementsByPose(const RgbdCamera& camera,
+                                               std::span<const Keyframe> keyframes) {
+  std::vector<PicturePlacement> placements;
+  placements.reserve(keyframes.size());
+  for (const Keyframe& keyframe : keyframes) {
+    placements.push_back(
+        {.color_from_scan = camera.color_from_depth * keyframe.scan_from_camera.inverse(),
+         .warp = {}});
+  }
+  return placements;
+}
+
 Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
                                                 const RgbdCamera& camera,
                                                 std::span<const Keyframe> keyframes,
-                                                const ColorMapOptions& options,
-                                                const Job& job) {
+                                                std::span<const PicturePlacement> placements,
+                                                const ColorMapOptions& options) {
   if (Expected<void> checked = checkImages(camera, keyframes); !checked) {
     return tl::unexpected(checked.error());
   }
@@ -159,25 +158,17 @@ Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
   for (const Keyframe& keyframe : keyframes) {
     least_blur = std::min(least_blur, keyframe.blur);
   }
-  const MeshIndex index(mesh);
   std::vector<std::optional<KeyframeView>> views(keyframes.size());
   parallelFor(static_cast<int>(keyframes.size()), [&](int i) {
-    if (job.stopped()) {
-      return;
-    }
     const auto k = static_cast<std::size_t>(i);
-    const Keyframe& keyframe = keyframes[k];
-    const RigidTransform scan_from_color =
-        keyframe.scan_from_camera * camera.color_from_depth.inverse();
-    views[k].emplace(camera,
-                     keyframe,
-                     options,
-                     renderDepth(index, camera.color, scan_from_color),
-                     relativeSharpness(keyframe.blur, least_blur));
+    views[k].emplace(
+        camera,
+        keyframes[k],
+        placements[k],
+        options,
+        rasterize(mesh, camera.color, placements[k].color_from_scan.cast<float>()),
+        relativeSharpness(keyframes[k].blur, least_blur));
   });
-  if (job.stopped()) {
-    return fail(ErrorCode::Cancelled);
-  }
   std::vector<KeyframeView> result;
   result.reserve(views.size());
   for (std::optional<KeyframeView>& view : views) {

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "reconstruction/base/job.h"
+#include "reconstruction/scene/frame.h"
+#include "reconstruction/texture/control_lattice.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tarsus {
+
+struct ColorAlignmentOptions {
+  int rigid_iterations = 40;    ///< over images at 1/4, 1/2 and full size together
+  int lattice_iterations = 40;  ///< at full size, after the rigid ones; 0: poses alone
+  int lattice_columns = 20;     ///< 16 to 21, as in Zhou and Koltun 2014
+  double huber_levels = 8.0;    ///< residuals beyond count linearly: highlights, other surfaces
+  double lattice_offset_px = 1.5;  ///< standard deviation expected of an offset ...
+  double lattice_bend_px = 0.25;   ///< ... and of its difference to the neighbour's
+  /// A phase ends when an iteration takes less than this share off the sum of squares; < 0: all
+  /// iterations are done.
+  double least_relative_drop = 1e-3;
+};
+
+/// A vertex that a picture sees.
+struct SightLine {
+  std::uint32_t vertex = 0;
+  float weight = 0.0F;  ///< > 0, relative
+};
+
+/// How a picture lies on the surface.
+struct PicturePlacement {
+  RigidTransform color_from_scan = RigidTransform::Identity();
+  ControlLattice warp;
+};
+
+/// A picture during alignment, which changes its place.
+struct AlignedPicture {
+  Image<float> intensity;        ///< exposure levelled [grey levels]
+  std::vector<SightLine> sight;  ///< ascending vertices, those of two or more pictures
+  PicturePlacement place;
+};
+
+struct ColorAlignment {
+  int rigid_iterations = 0;  ///< done
+  int lattice_iterations = 0;
+  /// Robust photometric RMSE [grey levels] at the start and after each iteration of the phase at
+  /// full size: never goes up.
+  std::vector<double> rmse;
+  std::size_t vertex_observations = 0;  ///< at full size
+  double observation_iterations = 0.0;  ///< vertex observations, summed over all iterations done
+};
+
+/// Moves pictures until they agree about the colours of the surface: in turns, each vertex takes
+/// the weighted mean of the pictures that see it, and each picture takes one Gauss-Newton step
+/// towards those means, first as a whole, then bent by a control lattice. A step that makes the
+/// whole worse is halved, then dropped.
+/// Source: Zhou and Koltun 2014; image gradients are true slopes per pixel, all images of one
+/// smoothness.
+/// @param vertices  scan frame [mm]; the first ones must cover the surface evenly: small images
+///                  use these alone
+/// @return  when stopped, pictures are as good as the iterations done made them
+[[nodiscard]] ColorAlignment alignPictures(std::span<const Eigen::Vector3f> vertices,
+                                           const Intrinsics& camera,
+                                           std::span<AlignedPicture> pictures,
+                                           const ColorAlignmentOptions& options,
+                                           const Job& job);
+
+}  // namespace tarsus
