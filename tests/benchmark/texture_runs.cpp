@@ -1,0 +1,53 @@
+#include "tests/benchmark/texture_runs.h"
+
+#include "reconstruction/texture/keyframe_view.h"
+#include "tests/benchmark/bench_support.h"
+
+#include <utility>
+
+namespace tarsus {
+namespace {
+
+/// The one place that tells the stage whether to align. Until it can, both ways are the same.
+ColorMapOptions stageOptions(bool align) {
+  ColorMapOptions options;
+  static_cast<void>(align);
+  return options;
+}
+
+}  // namespace
+
+TextureRun runStage(const TextureScan& scan, std::span<const Keyframe> keyframes, bool align) {
+  const ColorMapOptions options = stageOptions(align);
+  TextureRun run{.method = align ? "aligned" : "average"};
+  const StopWatch watch;
+  run.model = orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
+  run.seconds = watch.wall_s();
+  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, options);
+  return run;
+}
+
+TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes) {
+  TextureRun run{.method = "plain"};
+  run.model.mesh = scan.surface.mesh;
+  run.model.colors = scan.surface.colors;
+  run.model.observations = scan.surface.observations;
+  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, {});
+  return run;
+}
+
+long countObservations(const TexturedMesh& model,
+                       const RgbdCamera& camera,
+                       std::span<const Keyframe> keyframes) {
+  const auto views = orExit(renderViews(model.mesh, camera, keyframes, {}, Job{}));
+  const auto normals = model.mesh.normals.empty() ? vertexNormals(model.mesh) : model.mesh.normals;
+  long count = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (const KeyframeView& view : views) {
+      count += view.observe(model.mesh.vertices[i], normals[i]) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace tarsus

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "reconstruction/texture/color_map.h"
+#include "tests/benchmark/texture_judge.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tarsus {
+
+/// One row of the table.
+struct TextureRun {
+  std::string poses;   ///< "good" or "off"
+  std::string method;  ///< "plain", "average", "aligned"; Open3D's with "open3d_" before
+  TexturedMesh model;
+  double seconds = 0.0;                    ///< of the whole stage; 0: not known here
+  std::optional<double> photometric_rmse;  ///< [grey levels]
+};
+
+/// What the texture stage makes of these keyframes.
+[[nodiscard]] TextureRun runStage(const TextureScan& scan,
+                                  std::span<const Keyframe> keyframes,
+                                  bool align);
+
+/// The fused colours, as `reconstruct --no-texture` leaves them.
+[[nodiscard]] TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes);
+
+/// How often the vertices are seen in the keyframes: what an alignment has to work through each
+/// time.
+[[nodiscard]] long countObservations(const TexturedMesh& model,
+                                     const RgbdCamera& camera,
+                                     std::span<const Keyframe> keyframes);
+
+}  // namespace tarsus
