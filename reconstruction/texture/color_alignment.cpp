@@ -143,12 +143,13 @@ class Alignment {
       const int own = last ? left : static_cast<int>(size.share * options_.rigid_iterations);
       left -= own;
       useSize(size.factor);
+      measureNoise();
       result_.rigid_iterations += iterate(own, last, [this](PictureFit& fit) {
-        fit.planRigidStep(vertices_, agreement_.wanted());
+        fit.planRigidStep(vertices_, agreement_.wanted(), variance_);
       });
     }
     if (options_.lattice_iterations > 0 && total_weight_ > 0.0) {
-      variance_ = agreement_.update() / total_weight_;
+      measureNoise();
       for (PictureFit& fit : fits_) {
         fit.useLattice();
       }
@@ -190,10 +191,15 @@ class Alignment {
     }
   }
 
+  /// The priors count against the disagreement that there is when a phase begins.
+  void measureNoise() {
+    variance_ = total_weight_ > 0.0 ? agreement_.update() / total_weight_ : 0.0;
+  }
+
   double energy() {
     double sum = agreement_.update();
     for (const PictureFit& fit : fits_) {
-      sum += fit.latticeEnergy(variance_);
+      sum += fit.priorEnergy(variance_);
     }
     return sum;
   }

@@ -3,8 +3,10 @@
 #include "reconstruction/base/job.h"
 #include "reconstruction/scene/frame.h"
 #include "reconstruction/texture/control_lattice.h"
+#include "reconstruction/texture/depth_anchor.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct ColorAlignmentOptions {
   int lattice_iterations = 40;  ///< at full size, after the rigid ones; 0: poses alone
   int lattice_columns = 20;     ///< 16 to 21, as in Zhou and Koltun 2014
   double huber_levels = 8.0;    ///< residuals beyond count linearly: highlights, other surfaces
+  double anchor_mm =
+      0.3;  ///< poses may leave what depth says by so much [RMS along the surface's normals]
   double lattice_offset_px = 1.5;  ///< standard deviation expected of an offset ...
   double lattice_bend_px = 0.25;   ///< ... and of its difference to the neighbour's
   /// A phase ends when an iteration takes less than this share off the sum of squares; < 0: all
@@ -26,6 +30,7 @@ struct ColorAlignmentOptions {
 struct SightLine {
   std::uint32_t vertex = 0;
   float weight = 0.0F;  ///< > 0, relative
+  float trust = 0.0F;   ///< 0 beside an edge of the model's depth to 1 away from it
 };
 
 /// How a picture lies on the surface.
@@ -39,6 +44,7 @@ struct AlignedPicture {
   Image<float> intensity;        ///< exposure levelled [grey levels]
   std::vector<SightLine> sight;  ///< ascending vertices, those of two or more pictures
   PicturePlacement place;
+  std::optional<PoseAnchor> anchor;  ///< what the keyframe's depth says about the place
 };
 
 struct ColorAlignment {

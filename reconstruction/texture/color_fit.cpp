@@ -63,8 +63,7 @@ class ColorFit {
  private:
   void readPixels(std::size_t k) {
     const KeyframeView& view = views_[k];
-    const SurfaceImage image =
-        rasterize(mesh_, view.pinhole(), view.colorFromScan());
+    const SurfaceImage image = rasterize(mesh_, view.pinhole(), view.colorFromScan());
     const Eigen::Isometry3f scan_from_color = view.colorFromScan().inverse();
     for (int v = 0; v < image.face.height(); ++v) {
       for (int u = 0; u < image.face.width(); ++u) {
@@ -139,9 +138,8 @@ class ColorFit {
     const auto least = static_cast<float>(options_.least_relative_weight);
     const auto full = static_cast<float>(options_.full_relative_weight);
     eachView([&](PixelEquation& equation) {
-      const float most = std::max({best[0][equation.vertex[0]],
-                                   best[0][equation.vertex[1]],
-                                   best[0][equation.vertex[2]]});
+      const float most = std::max(
+          {best[0][equation.vertex[0]], best[0][equation.vertex[1]], best[0][equation.vertex[2]]});
       const float relative = equation.weight / most;
       equation.weight = relative * std::clamp((relative - least) / (full - least), 0.0F, 1.0F);
     });

@@ -94,6 +94,12 @@ class SurfaceColoring {
       return tl::unexpected(looked.error());
     }
     fine_ = subdivide(coarse, wantedSpacing(coarse.mesh, views_, options_), options_.max_vertices);
+    if (options_.align) {
+      anchor(coarse.mesh);
+      if (auto looked = look(coarse.mesh); !looked) {
+        return tl::unexpected(looked.error());
+      }
+    }
     levelExposure();
     if (options_.align && !job_.stopped()) {
       align();
@@ -151,6 +157,18 @@ class SurfaceColoring {
     result_.gains = solveGains(samples, static_cast<int>(views_.size()));
   }
 
+  /// Poses begin where the keyframes' depth has them.
+  void anchor(const TriangleMesh& mesh) {
+    anchors_.assign(keyframes_.size(), std::nullopt);
+    parallelFor(static_cast<int>(keyframes_.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      anchors_[k] = anchorToDepth(mesh, camera_, keyframes_[k]);
+      if (anchors_[k]) {
+        result_.placements[k].color_from_scan = anchors_[k]->color_from_scan;
+      }
+    });
+  }
+
   void align() {
     std::vector<AlignedPicture> pictures = linesOfSight();
     parallelFor(static_cast<int>(pictures.size()), [&](int i) {
@@ -161,6 +179,7 @@ class SurfaceColoring {
         level /= gain;
       }
       pictures[k].place = result_.placements[k];
+      pictures[k].anchor = anchors_[k];
     });
     result_.alignment =
         alignPictures(fine_.mesh.vertices, camera_.color, pictures, options_.alignment, job_);
@@ -172,34 +191,30 @@ class SurfaceColoring {
   /// Who sees which vertex; vertices that one picture alone sees say nothing.
   [[nodiscard]] std::vector<AlignedPicture> linesOfSight() const {
     const TriangleMesh& mesh = fine_.mesh;
-    std::vector<std::vector<float>> weights(
-        views_.size(), std::vector<float>(mesh.vertices.size(), 0.0F));
+    std::vector<std::vector<SightLine>> lines(views_.size(),
+                                              std::vector<SightLine>(mesh.vertices.size()));
     parallelChunks(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         int count = 0;
         std::size_t only = 0;
         for (std::size_t k = 0; k < views_.size(); ++k) {
           if (const auto seen = views_[k].observe(mesh.vertices[i], mesh.normals[i])) {
-            weights[k][i] = seen->weight;
+            lines[k][i] = {static_cast<std::uint32_t>(i), seen->weight, seen->trust};
             only = k;
             ++count;
           }
         }
         if (count == 1) {
-          weights[only][i] = 0.0F;
+          lines[only][i].weight = 0.0F;
         }
       }
     });
     std::vector<AlignedPicture> pictures(views_.size());
     parallelFor(static_cast<int>(views_.size()), [&](int i) {
-      const std::vector<float>& own = weights[static_cast<std::size_t>(i)];
-      std::vector<SightLine>& sight = pictures[static_cast<std::size_t>(i)].sight;
-      sight.reserve(own.size() - static_cast<std::size_t>(std::ranges::count(own, 0.0F)));
-      for (std::size_t vertex = 0; vertex < own.size(); ++vertex) {
-        if (own[vertex] > 0.0F) {
-          sight.push_back({static_cast<std::uint32_t>(vertex), own[vertex]});
-        }
-      }
+      std::vector<SightLine>& own = lines[static_cast<std::size_t>(i)];
+      std::erase_if(own, [](const SightLine& line) { return line.weight <= 0.0F; });
+      own.shrink_to_fit();
+      pictures[static_cast<std::size_t>(i)].sight = std::move(own);
     });
     return pictures;
   }
@@ -210,6 +225,7 @@ class SurfaceColoring {
   const Job& job_;
   ColoredSurface result_;
   std::vector<KeyframeView> views_;
+  std::vector<std::optional<PoseAnchor>> anchors_;
   ExtractedSurface fine_;
 };
 

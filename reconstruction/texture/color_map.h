@@ -37,8 +37,8 @@ struct ColoredSurface {
 };
 
 /// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
-/// marked `unseen` and filled from its neighbours, never black. Stopped during alignment, it goes on
-/// with what alignment had reached.
+/// marked `unseen` and filled from its neighbours, never black. Stopped during alignment, it goes
+/// on with what alignment had reached.
 /// @param surface  scan frame [mm]; need not be closed; its colours are the fallback
 /// @return the subdivided mesh; original vertices keep their positions to the last bit and come
 /// first

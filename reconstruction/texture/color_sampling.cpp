@@ -25,8 +25,8 @@ Eigen::Vector3f sampleColor(const ColorImage& image, float u, float v) {
   const float b = v - static_cast<float>(top);
   const Eigen::Vector3f upper =
       (1.0F - a) * colorVector(image.at(left, top)) + a * colorVector(image.at(left + 1, top));
-  const Eigen::Vector3f lower =
-      (1.0F - a) * colorVector(image.at(left, top + 1)) + a * colorVector(image.at(left + 1, top + 1));
+  const Eigen::Vector3f lower = (1.0F - a) * colorVector(image.at(left, top + 1)) +
+                                a * colorVector(image.at(left + 1, top + 1));
   return (1.0F - b) * upper + b * lower;
 }
 

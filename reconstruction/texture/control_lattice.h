@@ -23,8 +23,8 @@ class ControlLattice {
   /// @param columns  nodes across the image; as many rows as make the cells square
   ControlLattice(int width_px, int height_px, int columns)
       : columns_(columns),
-        rows_(std::max(2, 1 + static_cast<int>(static_cast<float>(height_px - 1) / step(width_px)
-                                               + 0.999F))),
+        rows_(std::max(
+            2, 1 + static_cast<int>(static_cast<float>(height_px - 1) / step(width_px) + 0.999F))),
         per_px_(1.0F / step(width_px)),
         offsets_px_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
                     Eigen::Vector2f::Zero()) {}

@@ -94,7 +94,8 @@ std::optional<Observation> KeyframeView::observe(const Eigen::Vector3f& p_scan,
     return std::nullopt;
   }
   const float weight = cosine * cosine / (p.z() * p.z()) * sharpness_ * trust;
-  return Observation{.u = place.x(), .v = place.y(), .depth_mm = p.z(), .weight = weight};
+  return Observation{
+      .u = place.x(), .v = place.y(), .depth_mm = p.z(), .trust = trust, .weight = weight};
 }
 
 Eigen::Vector3f KeyframeView::color(const Observation& observation) const {
@@ -161,13 +162,12 @@ Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
   std::vector<std::optional<KeyframeView>> views(keyframes.size());
   parallelFor(static_cast<int>(keyframes.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    views[k].emplace(
-        camera,
-        keyframes[k],
-        placements[k],
-        options,
-        rasterize(mesh, camera.color, placements[k].color_from_scan.cast<float>()),
-        relativeSharpness(keyframes[k].blur, least_blur));
+    views[k].emplace(camera,
+                     keyframes[k],
+                     placements[k],
+                     options,
+                     rasterize(mesh, camera.color, placements[k].color_from_scan.cast<float>()),
+                     relativeSharpness(keyframes[k].blur, least_blur));
   });
   std::vector<KeyframeView> result;
   result.reserve(views.size());

@@ -16,6 +16,7 @@ struct Observation {
   float u = 0.0F;  ///< in the colour image, warp included [px]
   float v = 0.0F;
   float depth_mm = 0.0F;  ///< z in the colour camera
+  float trust = 0.0F;     ///< 0 beside an edge of the model's depth to 1 away from it
   float weight = 0.0F;    ///< > 0: cos^2 / z^2 x sharpness x distance to the next edge; relative
 };
 

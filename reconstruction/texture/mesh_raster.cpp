@@ -73,8 +73,7 @@ void draw(const std::array<Corner, 3>& corners, int face, SurfaceImage& image) {
       if (std::min({at_a, at_b, at_c}) < -kEdgeTolerance) {
         continue;
       }
-      const float depth_mm =
-          1.0F / (at_a * a.inverse_z + at_b * b.inverse_z + at_c * c.inverse_z);
+      const float depth_mm = 1.0F / (at_a * a.inverse_z + at_b * b.inverse_z + at_c * c.inverse_z);
       float& nearest = image.depth_mm.at(column, row);
       if (nearest == 0.0F || depth_mm < nearest) {
         nearest = depth_mm;

@@ -48,7 +48,8 @@ double photometricRmse(const TexturedMesh& model,
   const std::size_t chunks = (model.colors.size() + kVertexChunk - 1) / kVertexChunk;
   std::vector<GainFit> fits(chunks * views->size());
   parallelChunks(model.colors.size(), [&](std::size_t first, std::size_t last) {
-    const auto own_fits = std::span(fits).subspan(first / kVertexChunk * views->size(), views->size());
+    const auto own_fits =
+        std::span(fits).subspan(first / kVertexChunk * views->size(), views->size());
     for (std::size_t i = first; i < last; ++i) {
       const auto own = static_cast<double>(intensityOf(colorVector(model.colors[i])));
       for (std::size_t k = 0; k < views->size(); ++k) {

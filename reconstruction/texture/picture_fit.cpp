@@ -78,8 +78,8 @@ Image<float> reduced(const Image<float>& image, int factor) {
                       const_cast<float*>(image.pixels().data()));  // read only
   cv::Mat small = whole;
   if (factor > 1) {
-    cv::resize(whole, small, cv::Size(whole.cols / factor, whole.rows / factor), 0, 0,
-               cv::INTER_AREA);
+    cv::resize(
+        whole, small, cv::Size(whole.cols / factor, whole.rows / factor), 0, 0, cv::INTER_AREA);
   }
   Image<float> result(small.cols, small.rows);
   cv::Mat smooth(small.rows, small.cols, CV_32F, result.pixels().data());
@@ -148,6 +148,16 @@ struct CellSums {
   }
 };
 
+Eigen::Vector3d centerOfSight(const Pinhole& pinhole,
+                              std::span<const Eigen::Vector3f> vertices,
+                              std::span<const SightLine> sight) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const SightLine& line : sight) {
+    sum += pinhole.inCamera(vertices[line.vertex]).cast<double>();
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(1, sight.size()));
+}
+
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
@@ -162,6 +172,11 @@ void addPair(int a, int b, const std::array<float, 3>& sums, Triplets& triplets)
     triplets.emplace_back(2 * a, 2 * b + 1, uv);
   }
 }
+
+struct LatticeBending {
+  double offsets_px2 = 0.0;  ///< sum of squares of the nodes' offsets
+  double steps_px2 = 0.0;    ///< of their differences between neighbours
+};
 
 }  // namespace
 
@@ -196,6 +211,18 @@ struct PictureFit::Lattice {
   }
   void assemble(double magnitude, double bend, Triplets& triplets, Eigen::VectorXd& right) const;
   void solve(double magnitude, double bend);
+  [[nodiscard]] LatticeBending bendingOf(const std::vector<Eigen::Vector2f>& offsets) const {
+    LatticeBending bending;
+    for (const Eigen::Vector2f& offset : offsets) {
+      bending.offsets_px2 += static_cast<double>(offset.squaredNorm());
+    }
+    eachNeighbour([&](int a, int b) {
+      const Eigen::Vector2f bent =
+          offsets[static_cast<std::size_t>(a)] - offsets[static_cast<std::size_t>(b)];
+      bending.steps_px2 += static_cast<double>(bent.squaredNorm());
+    });
+    return bending;
+  }
 };
 
 void PictureFit::Lattice::assemble(double magnitude,
@@ -275,12 +302,16 @@ void PictureFit::useSize(int factor, std::size_t vertex_limit) {
   intensity_ = reduced(picture_->intensity, factor);
   camera_ = reduced(full_, factor);
   px_per_px_ = static_cast<float>(factor);
-  sight_ = picture_->sight.data();
-  const auto end = std::partition_point(picture_->sight.begin(),
-                                        picture_->sight.end(),
-                                        [&](const SightLine& s) { return s.vertex < vertex_limit; });
-  sight_count_ = static_cast<std::size_t>(end - picture_->sight.begin());
-  values_.assign(sight_count_, 0.0F);
+  const float least_trust = factor == 1 ? 0.0F : factor == 2 ? 0.7F : 1.0F;
+  sight_.clear();
+  total_weight_ = 0.0;
+  for (const SightLine& line : picture_->sight) {
+    if (line.vertex < vertex_limit && line.trust >= least_trust) {
+      sight_.push_back(line);
+      total_weight_ += static_cast<double>(line.weight);
+    }
+  }
+  values_.assign(sight_.size(), 0.0F);
 }
 
 void PictureFit::useLattice() {
@@ -293,7 +324,7 @@ void PictureFit::useLattice() {
 void PictureFit::sample(std::span<const Eigen::Vector3f> vertices) {
   const Pinhole pinhole(camera_, picture_->place.color_from_scan);
   const ControlLattice& warp = picture_->place.warp;
-  for (std::size_t i = 0; i < sight_count_; ++i) {
+  for (std::size_t i = 0; i < sight_.size(); ++i) {
     Eigen::Vector2f place = pinhole.place(pinhole.inCamera(vertices[sight_[i].vertex]));
     if (!warp.empty()) {
       place = warp.warped(place);
@@ -303,27 +334,24 @@ void PictureFit::sample(std::span<const Eigen::Vector3f> vertices) {
 }
 
 void PictureFit::planRigidStep(std::span<const Eigen::Vector3f> vertices,
-                               std::span<const float> wanted) {
+                               std::span<const float> wanted,
+                               double variance_levels2) {
   base_ = picture_->place.color_from_scan;
   step_.setZero();
-  if (sight_count_ == 0) {
+  if (sight_.size() == 0) {
     return;
   }
   const Pinhole pinhole(camera_, base_);
   const auto limit = static_cast<float>(options_->huber_levels);
-  pivot_.setZero();
-  for (std::size_t i = 0; i < sight_count_; i += 16) {
-    pivot_ += pinhole.inCamera(vertices[sight_[i].vertex]).cast<double>();
-  }
-  pivot_ /= static_cast<double>((sight_count_ + 15) / 16);
+  pivot_ = picture_->anchor ? picture_->anchor->center : centerOfSight(pinhole, vertices, sight_);
   const Eigen::Vector3f pivot = pivot_.cast<float>();
   const ControlLattice& warp = picture_->place.warp;
   constexpr std::size_t kStretch = 1024;  // summed in single precision
   MotionMatrix normal = MotionMatrix::Zero();
   MotionVector right = MotionVector::Zero();
-  for (std::size_t begin = 0; begin < sight_count_; begin += kStretch) {
+  for (std::size_t begin = 0; begin < sight_.size(); begin += kStretch) {
     RigidSums part;
-    const std::size_t end = std::min(begin + kStretch, sight_count_);
+    const std::size_t end = std::min(begin + kStretch, sight_.size());
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f p = pinhole.inCamera(vertices[sight_[i].vertex]);
       const Eigen::Vector2f place = warp.empty() ? pinhole.place(p) : warp.warped(pinhole.place(p));
@@ -346,6 +374,13 @@ void PictureFit::planRigidStep(std::span<const Eigen::Vector3f> vertices,
     }
     part.addTo(normal, right);
   }
+  if (picture_->anchor) {
+    const PoseAnchor& anchor = *picture_->anchor;
+    const double weight = anchorWeight(variance_levels2);
+    normal += weight * anchor.stiffness;
+    right +=
+        weight * anchor.stiffness * motionBetween(base_, anchor.color_from_scan, anchor.center);
+  }
   const MotionMatrix full = normal.selfadjointView<Eigen::Lower>();
   const MotionMatrix damped = full + 1e-6 * full.trace() * MotionMatrix::Identity();
   const MotionVector step = damped.ldlt().solve(right);
@@ -361,7 +396,7 @@ void PictureFit::planLatticeStep(std::span<const Eigen::Vector3f> vertices,
   const Pinhole pinhole(camera_, picture_->place.color_from_scan);
   const ControlLattice& warp = picture_->place.warp;
   const auto limit = static_cast<float>(options_->huber_levels);
-  for (std::size_t i = 0; i < sight_count_; ++i) {
+  for (std::size_t i = 0; i < sight_.size(); ++i) {
     Eigen::Vector2f place = pinhole.place(pinhole.inCamera(vertices[sight_[i].vertex]));
     const ControlLattice::Cell cell = warp.cellAt(place);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -388,24 +423,25 @@ void PictureFit::move(double share) {
   }
 }
 
-double PictureFit::latticeEnergy(double variance_levels2) const {
-  if (lattice_ == nullptr) {
-    return 0.0;
+double PictureFit::anchorWeight(double variance_levels2) const {
+  return total_weight_ * variance_levels2 / (options_->anchor_mm * options_->anchor_mm);
+}
+
+double PictureFit::priorEnergy(double variance_levels2) const {
+  double energy = 0.0;
+  if (picture_->anchor) {
+    const PoseAnchor& anchor = *picture_->anchor;
+    const MotionVector away =
+        motionBetween(picture_->place.color_from_scan, anchor.color_from_scan, anchor.center);
+    energy += anchorWeight(variance_levels2) * away.dot(anchor.stiffness * away);
   }
-  const std::vector<Eigen::Vector2f>& offsets = picture_->place.warp.offsets_px();
-  double magnitude = 0.0;
-  double bend = 0.0;
-  for (const Eigen::Vector2f& offset : offsets) {
-    magnitude += static_cast<double>(offset.squaredNorm());
+  if (lattice_ != nullptr) {
+    const LatticeBending bending = lattice_->bendingOf(picture_->place.warp.offsets_px());
+    energy += kSightPerPixel * variance_levels2 *
+              (bending.offsets_px2 / (options_->lattice_offset_px * options_->lattice_offset_px) +
+               bending.steps_px2 / (options_->lattice_bend_px * options_->lattice_bend_px));
   }
-  lattice_->eachNeighbour([&](int a, int b) {
-    const Eigen::Vector2f bent =
-        offsets[static_cast<std::size_t>(a)] - offsets[static_cast<std::size_t>(b)];
-    bend += static_cast<double>(bent.squaredNorm());
-  });
-  return kSightPerPixel * variance_levels2 *
-         (magnitude / (options_->lattice_offset_px * options_->lattice_offset_px) +
-          bend / (options_->lattice_bend_px * options_->lattice_bend_px));
+  return energy;
 }
 
 }  // namespace tarsus

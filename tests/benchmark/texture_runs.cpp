@@ -8,10 +8,13 @@
 namespace tarsus {
 namespace {
 
-/// The one place that tells the stage whether to align. Until it can, both ways are the same.
+/// "average" is what alignment starts from: blended views, as the poses place them.
 ColorMapOptions stageOptions(bool align) {
   ColorMapOptions options;
-  static_cast<void>(align);
+  options.align = align;
+  if (!align) {
+    options.fit.sweeps = 0;
+  }
   return options;
 }
 
@@ -21,9 +24,12 @@ TextureRun runStage(const TextureScan& scan, std::span<const Keyframe> keyframes
   const ColorMapOptions options = stageOptions(align);
   TextureRun run{.method = align ? "aligned" : "average"};
   const StopWatch watch;
-  run.model = orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
+  ColoredSurface colored =
+      orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
   run.seconds = watch.wall_s();
-  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, options);
+  run.model = std::move(colored.model);
+  run.photometric_rmse =
+      photometricRmse(run.model, scan.camera, keyframes, colored.placements, options);
   return run;
 }
 
@@ -32,14 +38,16 @@ TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes
   run.model.mesh = scan.surface.mesh;
   run.model.colors = scan.surface.colors;
   run.model.observations = scan.surface.observations;
-  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, {});
+  run.photometric_rmse = photometricRmse(
+      run.model, scan.camera, keyframes, placementsByPose(scan.camera, keyframes), {});
   return run;
 }
 
 long countObservations(const TexturedMesh& model,
                        const RgbdCamera& camera,
                        std::span<const Keyframe> keyframes) {
-  const auto views = orExit(renderViews(model.mesh, camera, keyframes, {}, Job{}));
+  const auto views =
+      orExit(renderViews(model.mesh, camera, keyframes, placementsByPose(camera, keyframes), {}));
   const auto normals = model.mesh.normals.empty() ? vertexNormals(model.mesh) : model.mesh.normals;
   long count = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
