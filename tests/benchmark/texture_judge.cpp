@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
@@ -239,6 +240,15 @@ std::vector<LeftOutView> leftOutViews(const TextureScan& scan, const TrueScene* 
   for (const Keyframe& frame : scan.left_out) {
     LeftOutView view;
     view.scan_from_color = frame.scan_from_camera * scan.camera.color_from_depth.inverse();
+    if (truth != nullptr) {
+      const auto pose = poseAt(truth->scene->trajectory, frame.frame.timestamp, kSameTime);
+      const RigidTransform tp = pose.value() * scan.camera.color_from_depth.inverse();
+      const RigidTransform d = view.scan_from_color.inverse() * tp;
+      const Eigen::Vector3d q = d * Eigen::Vector3d(0, 0, 400);
+      std::printf("off by %.3f mm, at 400 mm: %.3f px; z %.3f mm\n", d.translation().norm(),
+                  600.0 * (q.head<2>() / q.z()).norm(), q.z() - 400);
+      if (std::getenv("TB_TRUE")) view.scan_from_color = tp;
+    }
     view.sensed = toFloat(frame.frame.color);
     const DepthImage depth =
         renderModel(bare, model, scan.camera.color, view.scan_from_color).depth;

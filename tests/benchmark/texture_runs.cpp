@@ -1,5 +1,7 @@
 #include "tests/benchmark/texture_runs.h"
 
+#include "reconstruction/base/parallel.h"
+#include "reconstruction/scene/mesh_index.h"
 #include "reconstruction/texture/keyframe_view.h"
 #include "tests/benchmark/bench_support.h"
 
@@ -40,6 +42,29 @@ TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes
   run.model.observations = scan.surface.observations;
   run.photometric_rmse = photometricRmse(
       run.model, scan.camera, keyframes, placementsByPose(scan.camera, keyframes), {});
+  return run;
+}
+
+TextureRun trueColors(const TexturedMesh& model, const TexturedMesh& foot) {
+  constexpr double kFar_mm = 20.0;
+  const MeshIndex index(foot.mesh);
+  TextureRun run{.method = "true colours", .model = model};
+  parallelFor(static_cast<int>(model.colors.size()), [&](int i) {
+    const auto v = static_cast<std::size_t>(i);
+    const auto nearest = index.nearest(model.mesh.vertices[v].cast<double>(), kFar_mm);
+    if (!nearest) {
+      return;
+    }
+    const Eigen::Vector3i& f = foot.mesh.faces[nearest->point.face];
+    Eigen::Vector3d c = Eigen::Vector3d::Constant(0.5);
+    for (int k = 0; k < 3; ++k) {
+      const Rgb8 corner = foot.colors[static_cast<std::size_t>(f[k])];
+      c += nearest->point.barycentric[k] * Eigen::Vector3d(corner.r, corner.g, corner.b);
+    }
+    run.model.colors[v] = {static_cast<std::uint8_t>(c.x()),
+                           static_cast<std::uint8_t>(c.y()),
+                           static_cast<std::uint8_t>(c.z())};
+  });
   return run;
 }
 

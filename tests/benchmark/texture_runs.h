@@ -26,6 +26,9 @@ struct TextureRun {
 /// The fused colours, as `reconstruct --no-texture` leaves them.
 [[nodiscard]] TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes);
 
+/// The same vertices with the true foot's own colours: what no method can be better than.
+[[nodiscard]] TextureRun trueColors(const TexturedMesh& model, const TexturedMesh& foot);
+
 /// How often the vertices are seen in the keyframes: what an alignment has to work through each
 /// time.
 [[nodiscard]] long countObservations(const TexturedMesh& model,
