@@ -1,33 +1,11 @@
 #pragma once
 
-#include "reconstruction/scene/frame.h"
-#include "reconstruction/scene/mesh.h"
-#include "tests/benchmark/texture_scan.h"
+#include "tests/benchmark/texture_views.h"
 
-#include <Eigen/Core>
-
-#include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
 
 namespace tarsus {
-
-using FloatColorImage = Image<Eigen::Vector3f>;  ///< sRGB [grey levels]
-using Mask = Image<std::uint8_t>;
-
-/// A view that no colour was taken from.
-struct LeftOutView {
-  RigidTransform scan_from_color = RigidTransform::Identity();
-  FloatColorImage sensed;
-  FloatColorImage clean;  ///< without the sensor's noise, blur and exposure; empty where unknown
-  Mask judged;            ///< pixels whose ray meets the model, and in the truth the foot
-  Mask inner;             ///< those of them a few pixels from the others: no silhouette
-};
-
-/// @param truth  null for a real scan
-[[nodiscard]] std::vector<LeftOutView> leftOutViews(const TextureScan& scan,
-                                                    const TrueScene* truth);
 
 /// How well a coloured model foretells the views left out; means over the views.
 struct TextureFigures {
@@ -47,15 +25,5 @@ struct TextureFigures {
 
 /// Vertices that a keyframe sees and that are black all the same.
 [[nodiscard]] int seenWithoutColor(const TexturedMesh& model);
-
-/// The model through a pinhole: colours interpolated over the faces, and z [mm], 0 where it is not.
-struct RenderedModel {
-  FloatColorImage color;
-  DepthImage depth;
-};
-[[nodiscard]] RenderedModel renderModel(const TexturedMesh& model,
-                                        const MeshIndex& index,
-                                        const Intrinsics& camera,
-                                        const RigidTransform& scan_from_camera);
 
 }  // namespace tarsus
