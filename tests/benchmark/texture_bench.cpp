@@ -105,10 +105,10 @@ class Report {
                      {"gradient_to_clean", f.gradient_to_clean},
                      {"gradient_to_sensed", f.gradient_to_sensed},
                      {"seen_without_color", black}});
+    for (const auto& [name, value] : run.further) {
+      rows_.back()[name] = value;
+    }
   }
-
-  /// A figure of the last row that not every row has.
-  void note(const char* name, double value) { rows_.back()[name] = value; }
 
   void write() const {
     if (!options_.json.empty()) {
@@ -139,11 +139,8 @@ void runAll(const TextureScan& scan,
     for (const bool align : {false, true}) {
       TextureRun run = runStage(scan, keyframes, align);
       run.poses = poses;
+      run.further.emplace("observations", countObservations(run.model, scan.camera, keyframes));
       report.add(run);
-      if (!align) {
-        const auto seen = static_cast<double>(countObservations(run.model, scan.camera, keyframes));
-        report.note("observations", seen);
-      }
       if (!align && !options.work.empty()) {
         exportTask(options.work / poses, run.model, scan.camera, keyframes);
       }

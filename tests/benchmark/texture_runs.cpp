@@ -10,13 +10,11 @@
 namespace tarsus {
 namespace {
 
-/// "average" is what alignment starts from: blended views, as the poses place them.
+/// TO BE WIRED: here and in runStage alone the bench tells the stage whether to align, and takes
+/// from it what the alignment found. Until it can, both ways are the same.
 ColorMapOptions stageOptions(bool align) {
   ColorMapOptions options;
-  options.align = align;
-  if (!align) {
-    options.fit.sweeps = 0;
-  }
+  static_cast<void>(align);
   return options;
 }
 
@@ -26,12 +24,9 @@ TextureRun runStage(const TextureScan& scan, std::span<const Keyframe> keyframes
   const ColorMapOptions options = stageOptions(align);
   TextureRun run{.method = align ? "aligned" : "average"};
   const StopWatch watch;
-  ColoredSurface colored =
-      orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
+  run.model = orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
   run.seconds = watch.wall_s();
-  run.model = std::move(colored.model);
-  run.photometric_rmse =
-      photometricRmse(run.model, scan.camera, keyframes, colored.placements, options);
+  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, options);
   return run;
 }
 
@@ -40,8 +35,7 @@ TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes
   run.model.mesh = scan.surface.mesh;
   run.model.colors = scan.surface.colors;
   run.model.observations = scan.surface.observations;
-  run.photometric_rmse = photometricRmse(
-      run.model, scan.camera, keyframes, placementsByPose(scan.camera, keyframes), {});
+  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, {});
   return run;
 }
 
@@ -71,8 +65,7 @@ TextureRun trueColors(const TexturedMesh& model, const TexturedMesh& foot) {
 long countObservations(const TexturedMesh& model,
                        const RgbdCamera& camera,
                        std::span<const Keyframe> keyframes) {
-  const auto views =
-      orExit(renderViews(model.mesh, camera, keyframes, placementsByPose(camera, keyframes), {}));
+  const auto views = orExit(renderViews(model.mesh, camera, keyframes, {}, Job{}));
   const auto normals = model.mesh.normals.empty() ? vertexNormals(model.mesh) : model.mesh.normals;
   long count = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {

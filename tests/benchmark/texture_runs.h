@@ -3,6 +3,7 @@
 #include "reconstruction/texture/color_map.h"
 #include "tests/benchmark/texture_judge.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,9 @@ struct TextureRun {
   TexturedMesh model;
   double seconds = 0.0;                    ///< of the whole stage; 0: not known here
   std::optional<double> photometric_rmse;  ///< [grey levels]
+  /// What only some runs have; texture_table.py reads observations (of vertices in keyframes) and,
+  /// of an alignment, rigid_seconds, rigid_iterations, non_rigid_seconds, non_rigid_iterations.
+  std::map<std::string, double> further;
 };
 
 /// What the texture stage makes of these keyframes.

@@ -118,13 +118,21 @@ TrueScene loadTrueScene(const std::filesystem::path& scan) {
   return {.scene = scene, .renderer = Renderer(scene)};
 }
 
+namespace {
+
+bool isLeftOut(const FramePose& pose) { return pose.frame_index % kBustStep == kBustStep / 2; }
+
+}  // namespace
+
 TextureScan loadBust(const std::filesystem::path& scan, double voxel_size_mm) {
   const Trajectory poses = orExit(readTrajectory(scan / "groundtruth.txt"));
+  Trajectory kept = poses;  // not even the surface is made from what judges it
+  std::erase_if(kept, isLeftOut);
   TextureScan result;
   {
     const auto frames = orExit(openScanFolder(scan));
     result.camera = frames->camera();
-    const TrackedScan placed = orExit(placeScan(*frames, poses, {}, {}));
+    const TrackedScan placed = orExit(placeScan(*frames, kept, {}, {}));
     const TsdfOptions options{.voxel_size_mm = voxel_size_mm};
     const TsdfVolume volume = orExit(fuseScan(placed.archive, placed.trajectory, {}, options, {}));
     result.surface = removeSmallComponents(volume.extractSurface(2.0F), {.min_faces = 500});
@@ -138,7 +146,7 @@ TextureScan loadBust(const std::filesystem::path& scan, double voxel_size_mm) {
       continue;
     }
     const double blur = blurMeasure(frame->color);
-    auto& list = frame->index % kBustStep == kBustStep / 2 ? result.left_out : result.keyframes;
+    auto& list = poseAt(kept, frame->timestamp, kSameTime) ? result.keyframes : result.left_out;
     list.push_back({.frame = std::move(*frame), .scan_from_camera = *pose, .blur = blur});
   }
   return result;
