@@ -71,6 +71,9 @@ def print_speed(rows, open3d):
 
 
 def print_foot(rows, open3d):
+    for name, run in open3d.items():
+        print("  %s, poses off: %d iterations, %.0f s in all" % (name, run["iterations"],
+                                                                 run["seconds"]))
     line("", "must", "measured")
     seconds = rows.get("off", "aligned", "seconds")
     line("stage with 40 + 40 iterations, 30 keyframes, %s vertices"
