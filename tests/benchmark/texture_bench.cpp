@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -62,6 +63,15 @@ void printHead() {
               "black");
 }
 
+/// A figure that is not known shows as a dash.
+std::string cell(double value, int digits) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return value == 0.0 ? "-" : text.data();
+}
+
+std::string nameOf(const TextureRun& run) { return run.poses + ", " + run.method; }
+
 class Report {
  public:
   Report(const TextureScan& scan, std::vector<LeftOutView> views, const Options& options)
@@ -80,17 +90,17 @@ class Report {
                                                : options_.pictures / (run.poses + "_" + run.method);
     const TextureFigures f = judge(run.model, color_, views_, pictures);
     const int black = seenWithoutColor(run.model);
-    std::printf("%-24s %8.2f %9zu %6.2f | %10.2f %12.2f %10.2f | %8.3f %8.3f %8.3f | %6d\n",
-                (run.poses.empty() ? run.method : run.poses + ", " + run.method).c_str(),
-                run.seconds,
+    std::printf("%-24s %8s %9zu %6s | %10s %12s %10s | %8s %8s %8s | %6d\n",
+                nameOf(run).c_str(),
+                cell(run.seconds, 2).c_str(),
                 run.model.mesh.vertices.size(),
-                run.photometric_rmse.value_or(0.0),
-                f.psnr_clean_db,
-                f.least_psnr_clean_db,
-                f.psnr_sensed_db,
-                f.laplacian_to_clean,
-                f.gradient_to_clean,
-                f.gradient_to_sensed,
+                cell(run.photometric_rmse.value_or(0.0), 2).c_str(),
+                cell(f.psnr_clean_db, 2).c_str(),
+                cell(f.least_psnr_clean_db, 2).c_str(),
+                cell(f.psnr_sensed_db, 2).c_str(),
+                cell(f.laplacian_to_clean, 3).c_str(),
+                cell(f.gradient_to_clean, 3).c_str(),
+                cell(f.gradient_to_sensed, 3).c_str(),
                 black);
     std::fflush(stdout);
     rows_.push_back({{"poses", run.poses},

@@ -42,7 +42,7 @@ TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes
 TextureRun trueColors(const TexturedMesh& model, const TexturedMesh& foot) {
   constexpr double kFar_mm = 20.0;
   const MeshIndex index(foot.mesh);
-  TextureRun run{.method = "true colours", .model = model};
+  TextureRun run{.poses = "any", .method = "truth", .model = model};
   parallelFor(static_cast<int>(model.colors.size()), [&](int i) {
     const auto v = static_cast<std::size_t>(i);
     const auto nearest = index.nearest(model.mesh.vertices[v].cast<double>(), kFar_mm);

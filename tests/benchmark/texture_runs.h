@@ -12,8 +12,8 @@ namespace tarsus {
 
 /// One row of the table.
 struct TextureRun {
-  std::string poses;   ///< "good" or "off"
-  std::string method;  ///< "plain", "average", "aligned"; Open3D's with "open3d_" before
+  std::string poses;   ///< "good", "off" or "any"
+  std::string method;  ///< "plain", "average", "aligned", "truth"; Open3D's: "open3d_" ...
   TexturedMesh model;
   double seconds = 0.0;                    ///< of the whole stage; 0: not known here
   std::optional<double> photometric_rmse;  ///< [grey levels]
