@@ -83,6 +83,7 @@ SimulatorOptions optionsOf(const nlohmann::json& json) {
   options.foot = footCaseNamed(json.at("foot").get<std::string>()).value();
   options.path = cameraPathNamed(json.at("path").get<std::string>()).value();
   options.layout = cameraLayoutNamed(json.at("camera").get<std::string>()).value();
+  options.fault = scanFaultNamed(json.value("fault", std::string("none"))).value();
   options.frames = json.at("frames").get<int>();
   options.seed = json.at("seed").get<std::uint64_t>();
   options.noise = json.at("noise").get<double>();
