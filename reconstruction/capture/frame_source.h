@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace tarsus {
 
@@ -33,6 +34,9 @@ class FrameSource {
 struct FrameContent {
   bool color = true;
   int every_nth = 1;  ///< 2: every second frame
+  /// Only these of them (RgbdFrame::index, ascending). A source that cannot leap may give others
+  /// too.
+  std::optional<std::vector<int>> only = std::nullopt;
 };
 
 }  // namespace tarsus

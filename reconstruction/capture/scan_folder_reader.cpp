@@ -44,6 +44,16 @@ std::optional<double> medianDepth(const DepthImage& depth) {
   return *middle;
 }
 
+std::vector<std::size_t> wantedOf(std::size_t count, const FrameContent& content) {
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(content.every_nth)) {
+    if (!content.only || std::ranges::binary_search(*content.only, static_cast<int>(i))) {
+      wanted.push_back(i);
+    }
+  }
+  return wanted;
+}
+
 class ScanFolderSource final : public FrameSource {
  public:
   ScanFolderSource(RgbdCamera camera,
@@ -53,7 +63,8 @@ class ScanFolderSource final : public FrameSource {
       : camera_(std::move(camera)),
         correction_(facts.correction),
         files_(std::move(files)),
-        content_(content),
+        with_color_(content.color),
+        wanted_(wantedOf(files_.size(), content)),
         depth_undistorter_(camera_.depth),
         color_undistorter_(camera_.color),
         warnings_(facts.doubts) {
@@ -69,15 +80,14 @@ class ScanFolderSource final : public FrameSource {
 
   [[nodiscard]] const RgbdCamera& camera() const override { return camera_; }
   [[nodiscard]] std::optional<int> frameCount() const override {
-    const int step = content_.every_nth;
-    return (static_cast<int>(files_.size()) + step - 1) / step;
+    return static_cast<int>(wanted_.size());
   }
   [[nodiscard]] const Warnings& warnings() const override { return warnings_; }
 
   [[nodiscard]] Expected<std::optional<RgbdFrame>> next() override {
     while (loading_.valid()) {
       LoadedFrame loaded = loading_.get();
-      next_ += static_cast<std::size_t>(content_.every_nth);
+      ++next_;
       startLoading();
       std::ranges::move(loaded.warnings, std::back_inserter(warnings_));
       if (loaded.frame) {
@@ -90,8 +100,8 @@ class ScanFolderSource final : public FrameSource {
  private:
   /// The next frame is decoded while the caller works on this one: PNG takes as long as tracking.
   void startLoading() {
-    loading_ = next_ < files_.size()
-                   ? std::async(std::launch::async, [this, i = next_] { return load(i); })
+    loading_ = next_ < wanted_.size()
+                   ? std::async(std::launch::async, [this, i = wanted_[next_]] { return load(i); })
                    : std::future<LoadedFrame>();
   }
 
@@ -113,7 +123,7 @@ class ScanFolderSource final : public FrameSource {
         .timestamp = files.timestamp,
         .depth = corrected(depth_undistorter_.apply(std::move(*depth)), correction_, camera_.depth),
         .color = {}};
-    if (content_.color) {
+    if (with_color_) {
       loadColor(files, frame, loaded.warnings);
     }
     loaded.frame = std::move(frame);
@@ -141,11 +151,12 @@ class ScanFolderSource final : public FrameSource {
   RgbdCamera camera_;
   DepthCorrection correction_;
   std::vector<FrameFiles> files_;
-  FrameContent content_;
+  bool with_color_;
+  std::vector<std::size_t> wanted_;  ///< indices of files, ascending
   Undistorter depth_undistorter_;
   Undistorter color_undistorter_;
   Warnings warnings_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0;              ///< of wanted_
   std::future<LoadedFrame> loading_;  ///< last, so that it ends before what it reads goes
 };
 

@@ -80,6 +80,19 @@ TEST(ScanFolder, ReadsEveryNthFrameAndLeavesColorOut) {
   EXPECT_EQ(frames[2].color.width(), 0);
 }
 
+TEST(ScanFolder, ReadsOnlyTheFramesAskedForUnderTheirOwnIndices) {
+  const TemporaryFolder folder;
+  writeSmallScan(folder.path(), 7);
+  auto source = openScanFolder(folder.path(), {}, {.only = std::vector<int>{1, 5, 9}});
+  ASSERT_TRUE(source) << describe(source.error());
+  EXPECT_EQ((*source)->frameCount(), 2);
+  const auto frames = readAll(**source);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].index, 1);
+  EXPECT_EQ(frames[1].index, 5);
+  EXPECT_GT(frames[1].color.width(), 0);
+}
+
 TEST(ScanFolder, ReadsATumSequenceWithoutAssociationsOrCameraFile) {
   const TemporaryFolder folder;
   writeSmallScan(folder.path(), 5);
