@@ -36,6 +36,25 @@ json toJson(const std::vector<CutShare>& cut) {
   return list;
 }
 
+json toJson(const KeyframeChoice& choice) {
+  json frames = json::array();
+  for (const ChosenFrame& frame : choice.frames) {
+    frames.push_back({{"frame", frame.picture.frame_index},
+                      {"timestamp", static_cast<double>(frame.picture.timestamp.count()) * 1e-6},
+                      {"blur", frame.picture.blur},
+                      {"brightness", frame.picture.brightness},
+                      {"taken_for", nameOf(frame.reason)},
+                      {"seen_share", frame.seen_share},
+                      {"view_angle_deg", frame.view_angle_deg}});
+  }
+  return {{"frames", frames},
+          {"vertices_judged", choice.vertices_judged},
+          {"vertices_seen_by_0_1_2_3", choice.vertices_by_views},
+          {"vertices_coverable", choice.vertices_coverable},
+          {"vertices_covered", choice.vertices_covered},
+          {"view_angle_deg", choice.view_angle_deg}};
+}
+
 json toJson(const TsdfWeighting& weighting) {
   return {{"epsilon_mm", weighting.epsilon_mm},
           {"delta_mm", weighting.delta_mm},
@@ -132,6 +151,7 @@ json toJson(const Reconstruction& r, const ScanOptions& options, std::string_vie
           {"cut", toJson(r.cut)},
           {"unseen_fraction", r.unseen_fraction},
           {"keyframes", r.keyframes.size()},
+          {"keyframe_choice", toJson(r.keyframe_choice)},
           {"photometric_rmse_before", orNull(r.photometric_rmse_before)},
           {"photometric_rmse_after", orNull(r.photometric_rmse_after)},
           {"stages", stages},

@@ -9,6 +9,7 @@
 #include "reconstruction/pipeline/foot_region.h"
 #include "reconstruction/pipeline/hashing_source.h"
 #include "reconstruction/pipeline/stage_clock.h"
+#include "reconstruction/pipeline/surveying_source.h"
 
 #include <algorithm>
 #include <array>
@@ -78,20 +79,24 @@ class ScanReconstruction {
     return !options_.trajectory || options_.refine_trajectory;
   }
 
-  /// First pass: where the camera was at each frame. Names the scan on the way.
+  /// First pass: where the camera was at each frame. Names the scan on the way, and notes how sharp
+  /// its pictures are.
   Expected<void> followCamera() {
     auto frames = open_({.color = true});
     if (!frames) {
       return tl::unexpected(frames.error());
     }
     HashingSource hashed(std::move(*frames));
+    SurveyingSource surveyed(hashed);
+    FrameSource& source = options_.texture ? static_cast<FrameSource&>(surveyed) : hashed;
     auto scan = options_.trajectory
-                    ? placeScan(hashed, *options_.trajectory, options_.tracking, job_)
-                    : trackScan(hashed, options_.tracking, job_);
+                    ? placeScan(source, *options_.trajectory, options_.tracking, job_)
+                    : trackScan(source, options_.tracking, job_);
     if (!scan) {
       return tl::unexpected(scan.error());
     }
     scan_ = std::move(*scan);
+    pictures_ = surveyed.takePictures();
     result_.scan_sha256 = hashed.hex();
     std::ranges::copy(hashed.warnings(), std::back_inserter(result_.warnings));
     result_.camera = hashed.camera();
@@ -329,14 +334,20 @@ class ScanReconstruction {
     if (!options_.texture) {
       return {};
     }
-    auto frames = open_({.color = true});
+    auto choice = chooseKeyframes(
+        pictures_, result_.trajectory, result_.camera, surface_.mesh, options_.keyframes, job_);
+    if (!choice) {
+      return tl::unexpected(choice.error());
+    }
+    auto frames = open_(contentFor(*choice));
     if (!frames) {
       return tl::unexpected(frames.error());
     }
-    auto keyframes = chooseKeyframes(**frames, result_.trajectory, options_.keyframes, job_);
+    auto keyframes = readKeyframes(**frames, *choice, job_);
     if (!keyframes) {
       return tl::unexpected(keyframes.error());
     }
+    result_.keyframe_choice = std::move(*choice);
     result_.keyframes = std::move(*keyframes);
     clock_.end("keyframes", result_.frames_total);
     return {};
@@ -378,6 +389,7 @@ class ScanReconstruction {
   const Job& job_;
   StageClock clock_;
   Reconstruction result_;
+  std::vector<PictureQuality> pictures_;
   std::optional<TrackedScan> scan_;
   std::optional<FootRegion> region_;
   ExtractedSurface surface_;

@@ -50,6 +50,7 @@ struct Reconstruction {
   TexturedMesh model;
   Trajectory trajectory;
   RgbdCamera camera;
+  KeyframeChoice keyframe_choice;
   std::vector<Keyframe> keyframes;
   int frames_total = 0;
   int frames_tracked = 0;

@@ -1,4 +1,4 @@
-#include "reconstruction/texture/keyframes.h"
+#include "reconstruction/texture/blur_measure.h"
 
 #include <gtest/gtest.h>
 
@@ -127,6 +127,29 @@ TEST(BlurMeasure, StaysBetweenZeroAndOne) {
   }
   // Neighbours differ by 255, nine-tap means by at most 255 / 9.
   EXPECT_NEAR(blurMeasure(checker), 1.0 / 9.0, 0.02);
+}
+
+TEST(AssessPicture, NotesBlurBrightnessAndWhichFrame) {
+  RgbdFrame frame;
+  frame.index = 12;
+  frame.timestamp = std::chrono::microseconds(400'000);
+  frame.color = blocks(320, 200);
+  const PictureQuality quality = assessPicture(frame);
+  EXPECT_EQ(quality.frame_index, 12);
+  EXPECT_EQ(quality.timestamp, frame.timestamp);
+  EXPECT_EQ(quality.blur, blurMeasure(frame.color));
+  double sum = 0.0;
+  for (const Rgb8 c : frame.color.pixels()) {
+    sum += c.g;
+  }
+  EXPECT_NEAR(quality.brightness, sum / static_cast<double>(frame.color.pixels().size()), 1e-9);
+}
+
+TEST(BlurMeasure, PicturesNarrowerThanTheFilterHaveOneToo) {
+  for (const int width : {2, 5, 9, 10, 11}) {
+    const ColorImage image = blocks(width, 12);
+    EXPECT_NEAR(blurMeasure(image), blurByDefinition(image), 1e-12) << width;
+  }
 }
 
 }  // namespace
