@@ -15,12 +15,25 @@ struct ExposureSample {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();
 };
 
-/// Gain of each image and channel such that image / gain agree on the points they share: medians of
-/// the log ratios of each pair of images, joined by least squares. The median of the gains is 1, so
-/// that levelling does not shift the colours as a whole.
+/// How an image shows colours: gain x colour + bias, each channel on its own.
+struct ColorGain {
+  Eigen::Vector3f gain = Eigen::Vector3f::Ones();
+  Eigen::Vector3f bias = Eigen::Vector3f::Zero();  ///< [grey levels]
+
+  /// The image's colour as all images agree on it [grey levels].
+  [[nodiscard]] Eigen::Vector3f leveled(const Eigen::Vector3f& color) const {
+    return (color - bias).cwiseQuotient(gain);
+  }
+};
+
+/// Gain of each image and channel such that the levelled images agree on the points they share:
+/// medians of the log ratios of each pair of images, joined by least squares. Where a bias lowers
+/// what is left clearly, gain and bias are solved for together, odd samples (highlights) left out.
+/// Of images that are joined by shared points the median gain is 1 and the median bias 0, so that
+/// levelling does not shift the colours as a whole; an image that shares nothing stays as it is.
 /// @param samples  sorted by point
-/// @return image_count factors per channel, in [0.5, 2]
-[[nodiscard]] std::vector<Eigen::Vector3f> solveGains(std::span<const ExposureSample> samples,
-                                                      int image_count);
+/// @return image_count entries; gain in [0.5, 2], bias within 30 grey levels
+[[nodiscard]] std::vector<ColorGain> solveGains(std::span<const ExposureSample> samples,
+                                                int image_count);
 
 }  // namespace tarsus
