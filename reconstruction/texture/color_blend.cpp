@@ -64,7 +64,7 @@ Eigen::Vector3f blend(const std::vector<WeightedColor>& views) {
 
 SeenColors blendViews(const TriangleMesh& mesh,
                       std::span<const KeyframeView> views,
-                      std::span<const Eigen::Vector3f> gains,
+                      std::span<const ColorGain> gains,
                       int best_views) {
   const std::size_t count = mesh.vertices.size();
   SeenColors result{std::vector<Eigen::Vector3f>(count, Eigen::Vector3f::Zero()),
@@ -79,7 +79,7 @@ SeenColors blendViews(const TriangleMesh& mesh,
           const Eigen::Vector3f raw = views[k].color(*seen);
           const float clipped = raw.maxCoeff() >= kClippedLevel ? kClippedWeight : 1.0F;
           candidates.push_back(
-              {.color = raw.cwiseQuotient(gains[k]), .weight = seen->weight * clipped});
+              {.color = gains[k].leveled(raw), .weight = seen->weight * clipped});
         }
       }
       if (!candidates.empty()) {

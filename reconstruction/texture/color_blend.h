@@ -25,7 +25,7 @@ inline constexpr float kClippedWeight = 0.05F;  ///< such pixels are used where 
 /// @param gains  of the views
 [[nodiscard]] SeenColors blendViews(const TriangleMesh& mesh,
                                     std::span<const KeyframeView> views,
-                                    std::span<const Eigen::Vector3f> gains,
+                                    std::span<const ColorGain> gains,
                                     int best_views);
 
 /// Makes blended colours sharp: changes them until the model, drawn in each keyframe's camera,
@@ -35,7 +35,7 @@ inline constexpr float kClippedWeight = 0.05F;  ///< such pixels are used where 
 /// @param colors  blended; unseen vertices stay as they are
 void fitColors(const TriangleMesh& mesh,
                std::span<const KeyframeView> views,
-               std::span<const Eigen::Vector3f> gains,
+               std::span<const ColorGain> gains,
                const ColorFitOptions& options,
                SeenColors& colors);
 

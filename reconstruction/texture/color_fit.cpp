@@ -39,7 +39,7 @@ class ColorFit {
  public:
   ColorFit(const TriangleMesh& mesh,
            std::span<const KeyframeView> views,
-           std::span<const Eigen::Vector3f> gains,
+           std::span<const ColorGain> gains,
            const ColorFitOptions& options,
            SeenColors& colors)
       : mesh_(mesh),
@@ -96,7 +96,7 @@ class ColorFit {
     }
     const Eigen::Vector3f raw = views_[k].sharpColor(*seen);
     equation.weight = seen->weight * (raw.maxCoeff() >= kClippedLevel ? kClippedWeight : 1.0F);
-    equation.color = raw.cwiseQuotient(gains_[k]);
+    equation.color = gains_[k].leveled(raw);
     equations_[k].push_back(equation);
   }
 
@@ -199,7 +199,7 @@ class ColorFit {
 
   const TriangleMesh& mesh_;
   std::span<const KeyframeView> views_;
-  std::span<const Eigen::Vector3f> gains_;
+  std::span<const ColorGain> gains_;
   const ColorFitOptions& options_;
   SeenColors& colors_;
   std::vector<Equations> equations_;
@@ -211,7 +211,7 @@ class ColorFit {
 
 void fitColors(const TriangleMesh& mesh,
                std::span<const KeyframeView> views,
-               std::span<const Eigen::Vector3f> gains,
+               std::span<const ColorGain> gains,
                const ColorFitOptions& options,
                SeenColors& colors) {
   if (options.sweeps > 0) {

@@ -129,7 +129,7 @@ class SurfaceColoring {
 
   /// Gain of each image, from an even choice of vertices.
   void levelExposure() {
-    result_.gains.assign(views_.size(), Eigen::Vector3f::Ones());
+    result_.gains.assign(views_.size(), ColorGain());
     if (!options_.level_exposure) {
       return;
     }
@@ -173,11 +173,7 @@ class SurfaceColoring {
     std::vector<AlignedPicture> pictures = linesOfSight();
     parallelFor(static_cast<int>(pictures.size()), [&](int i) {
       const auto k = static_cast<std::size_t>(i);
-      pictures[k].intensity = intensityImage(keyframes_[k].frame.color);
-      const float gain = intensityOf(result_.gains[k]);
-      for (float& level : pictures[k].intensity.pixels()) {
-        level /= gain;
-      }
+      pictures[k].intensity = intensityImage(keyframes_[k].frame.color, result_.gains[k]);
       pictures[k].place = result_.placements[k];
       pictures[k].anchor = anchors_[k];
     });

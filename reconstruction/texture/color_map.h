@@ -5,6 +5,7 @@
 #include "reconstruction/fusion/tsdf_volume.h"
 #include "reconstruction/texture/color_alignment.h"
 #include "reconstruction/texture/color_fit.h"
+#include "reconstruction/texture/exposure.h"
 #include "reconstruction/texture/keyframes.h"
 
 #include <span>
@@ -32,7 +33,7 @@ struct ColorMapOptions {
 struct ColoredSurface {
   TexturedMesh model;
   std::vector<PicturePlacement> placements;  ///< of the keyframes, as alignment left them
-  std::vector<Eigen::Vector3f> gains;        ///< of the keyframes
+  std::vector<ColorGain> gains;        ///< of the keyframes
   ColorAlignment alignment;
 };
 

@@ -48,10 +48,10 @@ Eigen::Vector3f sampleColorBicubic(const ColorImage& image, float u, float v) {
   return sum;
 }
 
-Image<float> intensityImage(const ColorImage& image) {
+Image<float> intensityImage(const ColorImage& image, const ColorGain& gain) {
   Image<float> intensity(image.width(), image.height());
-  std::ranges::transform(image.pixels(), intensity.pixels().begin(), [](Rgb8 c) {
-    return intensityOf(colorVector(c));
+  std::ranges::transform(image.pixels(), intensity.pixels().begin(), [&](Rgb8 c) {
+    return intensityOf(gain.leveled(colorVector(c)));
   });
   return intensity;
 }

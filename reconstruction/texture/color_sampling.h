@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reconstruction/scene/image.h"
+#include "reconstruction/texture/exposure.h"
 
 #include <Eigen/Core>
 
@@ -33,7 +34,7 @@ namespace tarsus {
   return 0.299F * color.x() + 0.587F * color.y() + 0.114F * color.z();
 }
 
-/// The luminance of each pixel [grey levels].
-[[nodiscard]] Image<float> intensityImage(const ColorImage& image);
+/// The luminance of each pixel, exposure levelled [grey levels].
+[[nodiscard]] Image<float> intensityImage(const ColorImage& image, const ColorGain& gain);
 
 }  // namespace tarsus
