@@ -68,6 +68,11 @@ void printReconstruction(const Reconstruction& r, const std::filesystem::path& f
     }
     std::printf("\n");
   }
+  if (r.color_card && r.color_card->scale) {
+    std::printf("Colour card: lengths are %.4f +- %.4f of the card's own\n",
+                r.color_card->scale->measured_over_true,
+                r.color_card->scale->uncertainty);
+  }
   for (const Warning& warning : r.warnings) {
     std::printf("Note: %s\n", warning.text.c_str());
   }

@@ -19,8 +19,11 @@ struct Arguments {
   std::filesystem::path trajectory;
   std::filesystem::path region;
   std::vector<double> intrinsics;
+  std::vector<double> grey_card;
   double depth_scale = 0.0;
+  double card_pitch_mm = 0.0;
   bool no_texture = false;
+  bool color_card = false;
   ScanOptions options;
 };
 
@@ -36,8 +39,19 @@ CameraOverrides overridesOf(const Arguments& arguments) {
   return overrides;
 }
 
+void applyCard(Arguments& arguments) {
+  if (arguments.color_card) {
+    arguments.options.color_card = ColorCardOptions{.patch_pitch_mm = arguments.card_pitch_mm};
+  }
+  if (arguments.grey_card.size() == 4) {
+    const auto& g = arguments.grey_card;
+    arguments.options.grey_card = GreyCardPlace{.center_mm = {g[0], g[1], g[2]}, .radius_mm = g[3]};
+  }
+}
+
 Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job& job) {
   arguments.options.texture = !arguments.no_texture;
+  applyCard(arguments);
   if (!arguments.trajectory.empty()) {
     auto trajectory = readTrajectory(arguments.trajectory);
     if (!trajectory) {
@@ -71,6 +85,24 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
   return toJson(*reconstruction, arguments.options, TARSUS_VERSION);
 }
 
+void addCardOptions(CLI::App& sub, Arguments& arguments) {
+  auto* card = sub.add_flag("--color-card",
+                            arguments.color_card,
+                            "White balance by a colour card of 24 patches that the scan shows");
+  sub.add_option("--card-pitch-mm",
+                 arguments.card_pitch_mm,
+                 "Middle to middle of the card's patches: checks the scan's scale")
+      ->check(CLI::Range(1.0, 100.0))
+      ->needs(card);
+  sub.add_option("--grey-card",
+                 arguments.grey_card,
+                 "White balance by a plain grey card at this place of the model, in mm")
+      ->delimiter(',')
+      ->expected(4)
+      ->excludes(card)
+      ->type_name("X,Y,Z,RADIUS");
+}
+
 }  // namespace
 
 void addReconstruct(CLI::App& app, Command& command) {
@@ -96,6 +128,7 @@ void addReconstruct(CLI::App& app, Command& command) {
   sub->add_option(
          "--region", arguments->region, "Keep only what lies in this box of the scan (JSON)")
       ->type_name("FILE");
+  addCardOptions(*sub, *arguments);
   sub->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy in pixels")
       ->delimiter(',')
       ->expected(4)

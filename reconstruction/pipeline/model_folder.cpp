@@ -55,10 +55,32 @@ json toJson(const KeyframeChoice& choice) {
           {"view_angle_deg", choice.view_angle_deg}};
 }
 
+json toJson(const std::optional<CardReading>& card) {
+  if (!card) {
+    return nullptr;
+  }
+  json scale;
+  if (card->scale) {
+    scale = {{"measured_over_true", card->scale->measured_over_true},
+             {"uncertainty", card->scale->uncertainty}};
+  }
+  const Eigen::Vector3f& gain = card->white_gain;
+  return {{"white_gain", {gain.x(), gain.y(), gain.z()}},
+          {"gain_spread", card->gain_spread},
+          {"residual_levels", card->residual_levels},
+          {"pictures", card->pictures},
+          {"scale", scale}};
+}
+
 json toJson(const TsdfWeighting& weighting) {
   return {{"epsilon_mm", weighting.epsilon_mm},
           {"delta_mm", weighting.delta_mm},
           {"sigma_per_mm2", weighting.sigma_per_mm2}};
+}
+
+json toJson(const GreyCardPlace& place) {
+  const Eigen::Vector3d& center = place.center_mm;
+  return {{"center_mm", {center.x(), center.y(), center.z()}}, {"radius_mm", place.radius_mm}};
 }
 
 json toJson(const ScanOptions& options) {
@@ -90,7 +112,10 @@ json toJson(const ScanOptions& options) {
           {"vertex_spacing_px", options.color.vertex_spacing_px},
           {"max_vertices", options.color.max_vertices},
           {"max_view_angle_deg", options.color.max_view_angle_deg},
-          {"best_views", options.color.best_views}};
+          {"best_views", options.color.best_views},
+          {"color_card", options.color_card.has_value()},
+          {"card_pitch_mm", options.color_card ? json(options.color_card->patch_pitch_mm) : json()},
+          {"grey_card", options.grey_card ? toJson(*options.grey_card) : json()}};
 }
 
 double peakMemoryMb() {
@@ -152,6 +177,7 @@ json toJson(const Reconstruction& r, const ScanOptions& options, std::string_vie
           {"unseen_fraction", r.unseen_fraction},
           {"keyframes", r.keyframes.size()},
           {"keyframe_choice", toJson(r.keyframe_choice)},
+          {"color_card", toJson(r.color_card)},
           {"photometric_rmse_before", orNull(r.photometric_rmse_before)},
           {"photometric_rmse_after", orNull(r.photometric_rmse_after)},
           {"stages", stages},

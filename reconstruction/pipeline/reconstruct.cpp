@@ -372,6 +372,36 @@ class ScanReconstruction {
     result_.photometric_rmse_after = rmse(textured->model);
     result_.model = std::move(textured->model);
     clock_.end("color", 0);
+    return balanceWhite();
+  }
+
+  /// By a card in the scan, where one is said to be there. Without it the model is as good as ever.
+  Expected<void> balanceWhite() {
+    if (options_.color_card) {
+      auto found = findColorCard(result_.keyframes, result_.camera, *options_.color_card, job_);
+      if (!found) {
+        return tl::unexpected(found.error());
+      }
+      result_.color_card = *found;
+    } else if (options_.grey_card) {
+      auto reading = readGreyCard(result_.model, *options_.grey_card);
+      if (!reading) {
+        result_.warnings.push_back(
+            {"grey_card_unread", "No white balance: " + reading.error().detail + "."});
+        return {};
+      }
+      result_.color_card = *reading;
+    } else {
+      return {};
+    }
+    if (result_.color_card) {
+      result_.model = whiteBalanced(std::move(result_.model), result_.color_card->white_gain);
+    } else {
+      result_.warnings.push_back(
+          {"color_card_missing",
+           "No keyframe shows a colour card; the colours are as the camera gave them."});
+    }
+    clock_.end("color card", 0);
     return {};
   }
 

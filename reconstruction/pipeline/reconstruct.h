@@ -9,6 +9,7 @@
 #include "reconstruction/pipeline/hole_closing.h"
 #include "reconstruction/pipeline/region_of_interest.h"
 #include "reconstruction/scene/mesh.h"
+#include "reconstruction/texture/color_card.h"
 #include "reconstruction/texture/color_map.h"
 #include "reconstruction/texture/keyframes.h"
 
@@ -35,8 +36,10 @@ struct ScanOptions {
   HoleOptions holes;
   KeyframeOptions keyframes;
   ColorMapOptions color;
-  std::optional<Trajectory> trajectory;  ///< known poses (a rig's encoders): no tracking
-  bool refine_trajectory = false;        ///< known poses are only where refinement starts
+  std::optional<ColorCardOptions> color_card;  ///< look for a card of 24 patches
+  std::optional<GreyCardPlace> grey_card;      ///< where a plain grey card lies, else
+  std::optional<Trajectory> trajectory;        ///< known poses (a rig's encoders): no tracking
+  bool refine_trajectory = false;              ///< known poses are only where refinement starts
 };
 
 struct StageTime {
@@ -52,6 +55,7 @@ struct Reconstruction {
   RgbdCamera camera;
   KeyframeChoice keyframe_choice;
   std::vector<Keyframe> keyframes;
+  std::optional<CardReading> color_card;  ///< its white gain is in the model's colours
   int frames_total = 0;
   int frames_tracked = 0;
   int relocalisations = 0;
