@@ -1,8 +1,10 @@
 #include "reconstruction/pipeline/model_folder.h"
 
 #include "reconstruction/base/atomic_file.h"
+#include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
+#include "reconstruction/pipeline/contact_sheet.h"
 #include "reconstruction/scene/ply.h"
 
 #include <nlohmann/json.hpp>
@@ -148,7 +150,10 @@ Expected<void> writeKeyframes(const std::filesystem::path& folder,
                      .timestamp = keyframe.frame.timestamp,
                      .scan_from_camera = keyframe.scan_from_camera});
   }
-  return writer->finish(poses);
+  if (auto finished = writer->finish(poses); !finished) {
+    return finished;
+  }
+  return writeColorImage(folder / "contact.png", contactSheet(reconstruction.keyframes));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace tarsus {
                                     std::string_view version);
 
 /// Writes model.ply, trajectory.txt, keyframes/ (a scan folder of the chosen frames with their
-/// poses as groundtruth.txt) and reconstruction.json, the last one last.
+/// poses as groundtruth.txt, and all of them in contact.png) and reconstruction.json, the last one
+/// last.
 /// @errors FileUnwritable, DiskFull
 [[nodiscard]] Expected<void> writeModelFolder(const std::filesystem::path& folder,
                                               const Reconstruction& reconstruction,

@@ -204,7 +204,14 @@ TEST_F(ReconstructScan, TheTextureShowsTheFootAndTheFolderIsWhole) {
   ASSERT_TRUE(keyframes) << describe(keyframes.error());
   EXPECT_EQ((*keyframes)->frameCount(), static_cast<int>(result->keyframes.size()));
 
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "keyframes" / "contact.png"));
+
   const nlohmann::json json = toJson(*result, options, "1.2.3");
+  const auto& choice = json.at("keyframe_choice");
+  EXPECT_EQ(choice.at("frames").size(), result->keyframes.size());
+  EXPECT_GE(choice.at("vertices_covered").get<int>(),
+            choice.at("vertices_coverable").get<int>() * 95 / 100);
+  EXPECT_TRUE(json.at("color_card").is_null());
   for (const char* key : {"frames_total",
                           "frames_tracked",
                           "frames_lost",
