@@ -61,7 +61,7 @@ std::vector<ColorGain> withBiases(std::vector<ColorGain> gains) {
   for (std::size_t i = 0; i < gains.size(); ++i) {
     const auto t = static_cast<float>(i);
     gains[i].bias = {
-        12.0F * std::sin(2.0F * t), 10.0F * std::cos(1.3F * t), 8.0F * std::sin(0.9F * t)};
+        15.0F * std::sin(2.0F * t), 14.0F * std::cos(1.3F * t), 13.0F * std::sin(0.9F * t)};
   }
   return gains;
 }
