@@ -85,7 +85,8 @@ TEST(ChooseKeyframes, ShowsEveryPlaceOfTheSurfaceThreeTimes) {
   const KeyframeChoice choice = choose(survey(600), roundPath(600), ball());
   EXPECT_GE(choice.frames.size(), 15U);
   EXPECT_LE(choice.frames.size(), 40U);
-  EXPECT_GE(choice.vertices_coverable, choice.vertices_judged * 3 / 4);  // not the poles
+  // Up to 55 degrees above and below the camera, which itself goes to 11: 66 of 90, less the rim.
+  EXPECT_GE(choice.vertices_coverable, choice.vertices_judged * 6 / 10);
   // The last ones lie where only some frames of the path see them, at 70 degrees: all would need
   // more than 40 frames.
   EXPECT_GE(choice.vertices_covered, choice.vertices_coverable * 96 / 100);
