@@ -1,0 +1,132 @@
+#include "reconstruction/pipeline/textured_model.h"
+
+#include "reconstruction/capture/frame_list.h"
+#include "reconstruction/capture/image_file.h"
+#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/trajectory_file.h"
+#include "reconstruction/pipeline/meshlab_project.h"
+
+#include <algorithm>
+
+namespace tarsus {
+namespace {
+
+constexpr const char* kPicture = "textured.png";
+constexpr const char* kKeyframes = "keyframes";
+/// Times are written with six decimals.
+constexpr std::chrono::microseconds kSameTime{2};
+
+Expected<void> writeFiles(const std::filesystem::path& folder,
+                          const TextureAtlas& atlas,
+                          const TexturedModelOptions& options) {
+  auto written = writeColorImage(folder / kPicture, atlas.image);
+  if (written && options.with_ply) {
+    written = writeTexturedPly(folder / "textured.ply", atlas.model, kPicture);
+  }
+  if (written && options.with_obj) {
+    written = writeTexturedObj(folder / "textured.obj", atlas.model, kPicture);
+  }
+  return written;
+}
+
+}  // namespace
+
+Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
+                                          const TexturedModelSource& source,
+                                          const TexturedModelOptions& options,
+                                          const Job& job) {
+  TARSUS_REQUIRE(source.mesh != nullptr && source.camera != nullptr, "a mesh and a camera");
+  if (source.keyframes.empty()) {
+    return fail(ErrorCode::KeyframesMissing, "no keyframe to make a texture from");
+  }
+  if (source.mesh->faces.empty()) {
+    return fail(ErrorCode::SurfaceEmpty, "no surface to make a textured model of");
+  }
+  std::vector<KeyframeView> rendered;
+  if (source.views.empty()) {
+    auto views = renderViews(*source.mesh, *source.camera, source.keyframes, options.color, job);
+    if (!views) {
+      return tl::unexpected(views.error());
+    }
+    rendered = std::move(*views);
+  }
+  auto atlas = makeTextureAtlas({.mesh = source.mesh,
+                                 .colors = source.colors,
+                                 .views = source.views.empty() ? rendered : source.views,
+                                 .keyframes = source.keyframes,
+                                 .gains = source.gains},
+                                options.atlas,
+                                job);
+  if (!atlas) {
+    return atlas;
+  }
+  if (auto written = writeFiles(folder, *atlas, options); !written) {
+    return tl::unexpected(written.error());
+  }
+  atlas->model = {};
+  atlas->image = {};
+  return atlas;
+}
+
+Expected<void> writeModelProject(const std::filesystem::path& folder,
+                                 const RgbdCamera& camera,
+                                 std::span<const Keyframe> keyframes) {
+  const auto files = listFrames(folder / kKeyframes);
+  if (!files) {
+    return tl::unexpected(files.error());
+  }
+  std::vector<MeshlabRaster> rasters;
+  for (const FrameFiles& file : *files) {
+    const auto found = std::find_if(keyframes.begin(), keyframes.end(), [&](const Keyframe& k) {
+      return std::chrono::abs(k.frame.timestamp - file.timestamp) <= kSameTime;
+    });
+    if (found != keyframes.end() && !file.color.empty()) {
+      rasters.push_back(
+          {.picture = file.color.lexically_relative(folder),
+           .scan_from_color = found->scan_from_camera * camera.color_from_depth.inverse()});
+    }
+  }
+  if (rasters.empty()) {
+    return fail(ErrorCode::KeyframesMissing,
+                (folder / kKeyframes).string() + " holds no picture of the keyframes");
+  }
+  return writeMeshlabProject(folder / "model.mlp", "model.ply", camera.color, rasters);
+}
+
+Expected<StoredKeyframes> readStoredKeyframes(const std::filesystem::path& folder, const Job& job) {
+  const auto source = openScanFolder(folder / kKeyframes);
+  if (!source) {
+    return tl::unexpected(source.error());
+  }
+  const auto poses = readTrajectory(folder / kKeyframes / "groundtruth.txt");
+  if (!poses) {
+    return tl::unexpected(poses.error());
+  }
+  StoredKeyframes stored{.camera = (*source)->camera()};
+  while (!job.stopped()) {
+    auto next = (*source)->next();
+    if (!next) {
+      return tl::unexpected(next.error());
+    }
+    if (!*next) {
+      break;
+    }
+    RgbdFrame& frame = **next;
+    const auto pose = poseAt(*poses, frame.timestamp, kSameTime);
+    if (pose && frame.color.width() > 0) {
+      const double blur = blurMeasure(frame.color);
+      stored.keyframes.push_back(
+          {.frame = std::move(frame), .scan_from_camera = *pose, .blur = blur});
+    }
+  }
+  if (job.stopped()) {
+    return fail(ErrorCode::Cancelled);
+  }
+  if (stored.keyframes.empty()) {
+    return fail(ErrorCode::KeyframesMissing,
+                (folder / kKeyframes).string() + " holds no picture with a pose");
+  }
+  return stored;
+}
+
+}  // namespace tarsus

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "reconstruction/base/error.h"
+#include "reconstruction/base/job.h"
+#include "reconstruction/texture/texture_atlas.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tarsus {
+
+struct TexturedModelOptions {
+  bool with_obj = true;   ///< textured.obj, .mtl and .png
+  bool with_ply = false;  ///< textured.ply, with the same picture
+  TextureAtlasOptions atlas;
+  ColorMapOptions color;  ///< what a keyframe sees
+};
+
+/// What a textured model is made from.
+struct TexturedModelSource {
+  const TriangleMesh* mesh = nullptr;  ///< scan frame [mm]; of moderate density: the picture
+                                       ///< carries the detail
+  std::span<const Rgb8> colors;        ///< #V for what no keyframe sees, or empty
+  const RgbdCamera* camera = nullptr;
+  std::span<const Keyframe> keyframes;
+  std::span<const KeyframeView> views;     ///< of the keyframes; empty: rendered here
+  std::span<const Eigen::Vector3f> gains;  ///< of the keyframes; empty: solved here
+};
+
+/// Writes the textured model beside model.ply: textured.png first, what names it afterwards.
+/// @return the atlas without its mesh and picture: how many charts, how good the seams
+/// @errors Cancelled, SurfaceEmpty, KeyframesMissing, CameraFactsInvalid, BadOption,
+///         FileUnwritable, DiskFull
+[[nodiscard]] Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
+                                                        const TexturedModelSource& source,
+                                                        const TexturedModelOptions& options,
+                                                        const Job& job);
+
+/// Writes model.mlp: model.ply and the pictures of keyframes/ with their cameras. Cheap.
+/// @param keyframes  those that keyframes/ holds; matched by their time
+/// @errors FileMissing, ScanEmpty, FileUnreadable (keyframes/), KeyframesMissing, FileUnwritable,
+///         DiskFull
+[[nodiscard]] Expected<void> writeModelProject(const std::filesystem::path& folder,
+                                               const RgbdCamera& camera,
+                                               std::span<const Keyframe> keyframes);
+
+/// Keyframes as a model folder keeps them.
+struct StoredKeyframes {
+  RgbdCamera camera;
+  std::vector<Keyframe> keyframes;
+};
+
+/// Reads keyframes/ of a model folder, with the poses of its groundtruth.txt.
+/// @errors those of openScanFolder and readTrajectory, KeyframesMissing, Cancelled
+[[nodiscard]] Expected<StoredKeyframes> readStoredKeyframes(const std::filesystem::path& folder,
+                                                            const Job& job);
+
+}  // namespace tarsus
