@@ -1,6 +1,7 @@
 #include "reconstruction/texture/charts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tarsus {
@@ -12,6 +13,47 @@ int axisLabel(const TriangleMesh& mesh, int face) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   return -1 - (2 * axis + (normal[axis] < 0.0 ? 1 : 0));
+}
+
+/// Whether a face laid flat along the axis keeps its side and a fair part of its area.
+bool liesFlat(const TriangleMesh& mesh, int face, int label) {
+  constexpr double kLeastCosine = 0.25;
+  const int axis = (-1 - label) / 2;
+  const double along = faceNormal(mesh, face)[axis];
+  return ((-1 - label) % 2 == 0 ? along : -along) > kLeastCosine;
+}
+
+/// Gives small unseen patches the axis of an unseen patch beside them, where all their faces lie
+/// flat along it: fewer charts.
+void joinSmallPatches(const TriangleMesh& mesh,
+                      const FaceNeighbors& neighbors,
+                      std::vector<int>& labels) {
+  constexpr std::size_t kSmall = 64;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const std::vector<int>& patch : connectedPatches(neighbors, labels).patches) {
+      const int own = labels[static_cast<std::size_t>(patch.front())];
+      if (own >= 0 || patch.size() > kSmall) {
+        continue;
+      }
+      std::array<int, 6> edges{};  // to patches of each axis
+      for (const int face : patch) {
+        for (const int beyond : neighbors[static_cast<std::size_t>(face)]) {
+          const int label = beyond >= 0 ? labels[static_cast<std::size_t>(beyond)] : own;
+          edges[static_cast<std::size_t>(label < 0 ? -1 - label : -1 - own)] += label < 0 ? 1 : 0;
+        }
+      }
+      edges[static_cast<std::size_t>(-1 - own)] = 0;
+      const auto most = std::max_element(edges.begin(), edges.end());
+      const int label = -1 - static_cast<int>(most - edges.begin());
+      const auto fits = [&](int face) { return liesFlat(mesh, face, label); };
+      if (*most > 0 && std::all_of(patch.begin(), patch.end(), fits)) {
+        for (const int face : patch) {
+          labels[static_cast<std::size_t>(face)] = label;
+        }
+      }
+    }
+  }
 }
 
 /// Along the axis of a label, so that the faces are seen from outside: clockwise with v down.
@@ -110,6 +152,7 @@ FlatCharts layOutCharts(const TriangleMesh& mesh,
   for (std::size_t f = 0; f < labels.size(); ++f) {
     labels[f] = labels[f] >= 0 ? labels[f] : axisLabel(mesh, static_cast<int>(f));
   }
+  joinSmallPatches(mesh, neighbors, labels);
   FacePatches patches = connectedPatches(neighbors, labels);
   FlatCharts result;
   result.chart_of = std::move(patches.patch_of);

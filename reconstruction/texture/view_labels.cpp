@@ -12,9 +12,12 @@
 namespace tarsus {
 namespace {
 
-constexpr int kChunk = 4096;           // faces a thread takes at once
-constexpr float kMaxCost = 6.0F;       // of one face; beyond, a view is simply bad
-constexpr float kSeamBase = 0.25F;     // share of the seam's cost where both views agree in colour
+constexpr int kChunk = 4096;        // faces a thread takes at once
+constexpr float kMaxCost = 6.0F;    // of one face; beyond, a view is simply bad
+constexpr float kSeamBase = 0.25F;  // share of the seam's cost where both views agree in colour
+/// Larger patches, in squares of the seam's cost, never gain by taking their neighbours' view.
+constexpr float kLargestMoved = 25.0F;
+constexpr int kSettled = 2000;         // sweeps end when fewer than one in so many faces changes
 constexpr float kVisibleStep = 12.0F;  // colours so different make a seam cost in full [levels]
 
 struct FaceView {
@@ -42,6 +45,7 @@ class Labelling {
   [[nodiscard]] float seamCost(std::size_t face, int edge, int own, int other) const;
   [[nodiscard]] bool improve(std::size_t face);
   [[nodiscard]] bool improvePatch(const std::vector<int>& patch, const std::vector<int>& patch_of);
+  [[nodiscard]] float areaOf(const std::vector<int>& patch) const;
   [[nodiscard]] double costOf(const std::vector<int>& patch,
                               const std::vector<int>& patch_of,
                               int view) const;
@@ -188,6 +192,14 @@ int Labelling::sweepFaces() {
   return changed;
 }
 
+float Labelling::areaOf(const std::vector<int>& patch) const {
+  float area_mm2 = 0.0F;
+  for (const int face : patch) {
+    area_mm2 += area_mm2_[static_cast<std::size_t>(face)];
+  }
+  return area_mm2;
+}
+
 double Labelling::costOf(const std::vector<int>& patch,
                          const std::vector<int>& patch_of,
                          int view) const {
@@ -246,7 +258,8 @@ int Labelling::sweepPatches() {
   int changed = 0;
   for (const std::size_t k : order) {
     const std::vector<int>& patch = parts.patches[k];
-    if (labels_[static_cast<std::size_t>(patch.front())] >= 0) {
+    const bool seen = labels_[static_cast<std::size_t>(patch.front())] >= 0;
+    if (seen && areaOf(patch) < kLargestMoved * seam_cost_mm_ * seam_cost_mm_) {
       changed += improvePatch(patch, parts.patch_of) ? 1 : 0;
     }
   }
@@ -287,7 +300,8 @@ std::vector<int> chooseFaceViews(const TriangleMesh& mesh,
   Labelling labelling(mesh, neighbors, observations, options);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
     const int faces = labelling.sweepFaces();
-    if (labelling.sweepPatches() + faces == 0) {
+    const int changed = labelling.sweepPatches() + faces;
+    if (changed <= static_cast<int>(mesh.faces.size()) / kSettled) {
       break;
     }
   }
