@@ -23,6 +23,9 @@ struct NormalEquations {
   Eigen::MatrixX3d right;
 };
 
+/// A step so large counts half [grey levels]: no exposure makes it, something else was seen there.
+constexpr double kOddStep = 25.0;
+
 void addSeam(const SeamEdge& seam, double weight, NormalEquations& equations) {
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Vector3d second = Eigen::Vector3d::Zero();
@@ -32,6 +35,8 @@ void addSeam(const SeamEdge& seam, double weight, NormalEquations& equations) {
     first += (1.0 - t) * seam.step[k].cast<double>();
     second += t * seam.step[k].cast<double>();
   }
+  const double odd = (first + second).norm() / count / kOddStep;
+  weight /= 1.0 + odd * odd;
   // Each half of the weights sums to half the number of samples.
   equations.couple(seam.first_uv, seam.other_first_uv, weight, 2.0 / count * first);
   equations.couple(seam.second_uv, seam.other_second_uv, weight, 2.0 / count * second);

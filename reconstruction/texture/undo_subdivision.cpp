@@ -1,13 +1,17 @@
 #include "reconstruction/texture/undo_subdivision.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace tarsus {
 namespace {
 
 /// A middle is rounded once; places in a scan are below a metre.
 constexpr float kSamePlace_mm = 2e-4F;
+constexpr double kSameDirection = 0.99999;  // cosine
+constexpr double kSameArea = 1e-5;          // share
 
 using Corners = Eigen::Vector3i;
 
@@ -15,7 +19,7 @@ bool has(const Corners& face, int vertex) {
   return face[0] == vertex || face[1] == vertex || face[2] == vertex;
 }
 
-/// The mesh while its last vertices are taken out.
+/// The mesh while vertices are taken out.
 class Joiner {
  public:
   explicit Joiner(const TriangleMesh& mesh)
@@ -27,28 +31,30 @@ class Joiner {
     }
   }
 
-  /// Leaves it where it was not made by splitting an edge.
+  /// Pulls the vertex along its edge to a neighbour, if it lies in the middle of two and no face
+  /// around it turns; of several such pairs, to the pair farthest apart: there an edge was split.
   void takeOut(int vertex) {
-    const std::vector<int> own = around_[static_cast<std::size_t>(vertex)];
-    if (own.size() != 2 && own.size() != 4) {
-      return;
-    }
-    // In a flat rhomb the vertex is the middle of both diagonals: the longer one was split.
-    int best_end = -1;
-    int best_other = -1;
-    float longest_mm = 0.0F;
-    for (const int face : own) {
-      for (const int end : faces_[static_cast<std::size_t>(face)]) {
-        const int other = end == vertex ? -1 : oppositeEnd(vertex, end, own);
-        if (other >= 0 && (at(end) - at(other)).norm() > longest_mm) {
-          longest_mm = (at(end) - at(other)).norm();
-          best_end = end;
-          best_other = other;
+    std::vector<int> ring;
+    for (const int face : around_[static_cast<std::size_t>(vertex)]) {
+      for (const int corner : faces_[static_cast<std::size_t>(face)]) {
+        if (corner != vertex && std::find(ring.begin(), ring.end(), corner) == ring.end()) {
+          ring.push_back(corner);
         }
       }
     }
-    if (best_end >= 0) {
-      join(vertex, best_end, best_other, own);
+    int best = -1;
+    float longest_mm = 0.0F;
+    for (const int a : ring) {
+      for (const int b : ring) {
+        const float length_mm = (at(a) - at(b)).norm();
+        if (length_mm > longest_mm && isMiddle(vertex, a, b) && mayMove(vertex, a, ring)) {
+          longest_mm = length_mm;
+          best = a;
+        }
+      }
+    }
+    if (best >= 0) {
+      move(vertex, best);
     }
   }
 
@@ -63,69 +69,60 @@ class Joiner {
     return mesh_.vertices[static_cast<std::size_t>(vertex)];
   }
 
-  /// The neighbour at the other end of an edge whose middle the vertex is: every face at `end` has
-  /// one beside it at the other end, across the same third corner. -1: there is none.
-  [[nodiscard]] int oppositeEnd(int vertex, int end, const std::vector<int>& own) const {
-    int other = -1;
-    std::size_t at_end = 0;
-    for (const int face : own) {
-      const Corners& corners = faces_[static_cast<std::size_t>(face)];
-      if (has(corners, end)) {
-        ++at_end;
-        continue;
-      }
-      for (const int candidate : corners) {
-        if (candidate != vertex && isMiddle(vertex, end, candidate)) {
-          other = candidate;
-        }
-      }
-    }
-    if (other < 0 || 2 * at_end != own.size()) {
-      return -1;
-    }
-    for (const int face : own) {
-      const Corners& corners = faces_[static_cast<std::size_t>(face)];
-      const bool paired =
-          has(corners, other) || (has(corners, end) && mate(face, vertex, end, other, own) >= 0);
-      if (!paired || (has(corners, end) && has(corners, other))) {
-        return -1;
-      }
-    }
-    return other;
-  }
-
   [[nodiscard]] bool isMiddle(int vertex, int a, int b) const {
     return (at(vertex) - 0.5F * (at(a) + at(b))).cwiseAbs().maxCoeff() <= kSamePlace_mm;
   }
 
-  /// The face at `other` that shares its third corner with `face` at `end`.
-  [[nodiscard]] int mate(
-      int face, int vertex, int end, int other, const std::vector<int>& own) const {
-    const Corners& corners = faces_[static_cast<std::size_t>(face)];
-    const int third = corners.sum() - vertex - end;
-    for (const int candidate : own) {
-      const Corners& there = faces_[static_cast<std::size_t>(candidate)];
-      if (has(there, other) && has(there, third)) {
-        return candidate;
-      }
-    }
-    return -1;
+  [[nodiscard]] Eigen::Vector3d areaVector(const Corners& face) const {
+    const Eigen::Vector3d a = at(face[0]).cast<double>();
+    return 0.5 * (at(face[1]).cast<double>() - a).cross(at(face[2]).cast<double>() - a);
   }
 
-  void join(int vertex, int end, int other, const std::vector<int>& own) {
-    for (const int face : own) {
-      if (!has(faces_[static_cast<std::size_t>(face)], end)) {
+  /// Whether the faces around, the vertex moved to `end`, are the same surface: none turns, their
+  /// area stays, and no edge gets a third face.
+  [[nodiscard]] bool mayMove(int vertex, int end, const std::vector<int>& ring) const {
+    double before = 0.0;
+    double after = 0.0;
+    std::size_t shared = 0;
+    for (const int face : around_[static_cast<std::size_t>(vertex)]) {
+      Corners corners = faces_[static_cast<std::size_t>(face)];
+      const Eigen::Vector3d old_area = areaVector(corners);
+      before += old_area.norm();
+      if (has(corners, end)) {
+        ++shared;
         continue;
       }
-      const int gone = mate(face, vertex, end, other, own);
-      for (const int corner : faces_[static_cast<std::size_t>(gone)]) {
-        std::erase(around_[static_cast<std::size_t>(corner)], gone);
+      std::replace(corners.begin(), corners.end(), vertex, end);
+      const Eigen::Vector3d area = areaVector(corners);
+      after += area.norm();
+      if (area.dot(old_area) <= kSameDirection * area.norm() * old_area.norm()) {
+        return false;
       }
-      faces_[static_cast<std::size_t>(gone)].setConstant(-1);
-      for (int& corner : faces_[static_cast<std::size_t>(face)]) {
-        corner = corner == vertex ? other : corner;
+    }
+    std::size_t common = 0;
+    for (const int neighbor : ring) {
+      const auto& there = around_[static_cast<std::size_t>(neighbor)];
+      common += neighbor != end && std::any_of(there.begin(), there.end(), [&](int face) {
+                  return has(faces_[static_cast<std::size_t>(face)], end);
+                });
+    }
+    return shared > 0 && common == shared && std::abs(after - before) <= kSameArea * before;
+  }
+
+  void move(int vertex, int end) {
+    for (const int face : around_[static_cast<std::size_t>(vertex)]) {
+      Corners& corners = faces_[static_cast<std::size_t>(face)];
+      if (has(corners, end)) {
+        for (const int corner : corners) {
+          if (corner != vertex) {
+            std::erase(around_[static_cast<std::size_t>(corner)], face);
+          }
+        }
+        corners.setConstant(-1);
+      } else {
+        std::replace(corners.begin(), corners.end(), vertex, end);
+        around_[static_cast<std::size_t>(end)].push_back(face);
       }
-      around_[static_cast<std::size_t>(other)].push_back(face);
     }
     around_[static_cast<std::size_t>(vertex)].clear();
   }
@@ -139,8 +136,12 @@ class Joiner {
 
 CompactedMesh undoSubdivision(const TriangleMesh& mesh) {
   Joiner joiner(mesh);
-  for (int vertex = static_cast<int>(mesh.vertices.size()) - 1; vertex >= 0; --vertex) {
-    joiner.takeOut(vertex);
+  // A vertex that another still holds in place goes in a later pass.
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (int vertex = static_cast<int>(mesh.vertices.size()) - 1; vertex >= 0; --vertex) {
+      joiner.takeOut(vertex);
+    }
   }
   TriangleMesh joined{.vertices = mesh.vertices, .normals = mesh.normals};
   joined.faces = joiner.takeFaces();
