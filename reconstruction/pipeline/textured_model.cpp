@@ -5,6 +5,7 @@
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/pipeline/meshlab_project.h"
+#include "reconstruction/texture/undo_subdivision.h"
 
 #include <algorithm>
 
@@ -15,6 +16,20 @@ constexpr const char* kPicture = "textured.png";
 constexpr const char* kKeyframes = "keyframes";
 /// Times are written with six decimals.
 constexpr std::chrono::microseconds kSameTime{2};
+
+struct SmallerMesh {
+  TriangleMesh mesh;
+  std::vector<Rgb8> colors;
+};
+
+SmallerMesh withoutSubdivision(const TexturedModelSource& source) {
+  CompactedMesh compacted = undoSubdivision(*source.mesh);
+  SmallerMesh result{.mesh = std::move(compacted.mesh)};
+  for (const int vertex : source.colors.empty() ? std::vector<int>() : compacted.kept) {
+    result.colors.push_back(source.colors[static_cast<std::size_t>(vertex)]);
+  }
+  return result;
+}
 
 Expected<void> writeFiles(const std::filesystem::path& folder,
                           const TextureAtlas& atlas,
@@ -50,8 +65,12 @@ Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
     }
     rendered = std::move(*views);
   }
-  auto atlas = makeTextureAtlas({.mesh = source.mesh,
-                                 .colors = source.colors,
+  std::optional<SmallerMesh> smaller;
+  if (options.undo_subdivision) {
+    smaller = withoutSubdivision(source);
+  }
+  auto atlas = makeTextureAtlas({.mesh = smaller ? &smaller->mesh : source.mesh,
+                                 .colors = smaller ? smaller->colors : source.colors,
                                  .views = source.views.empty() ? rendered : source.views,
                                  .keyframes = source.keyframes,
                                  .gains = source.gains},

@@ -14,19 +14,20 @@ namespace tarsus {
 struct TexturedModelOptions {
   bool with_obj = true;   ///< textured.obj, .mtl and .png
   bool with_ply = false;  ///< textured.ply, with the same picture
+  /// Leaves out the vertices that were put in to carry colours: the picture carries the detail.
+  bool undo_subdivision = true;
   TextureAtlasOptions atlas;
   ColorMapOptions color;  ///< what a keyframe sees
 };
 
 /// What a textured model is made from.
 struct TexturedModelSource {
-  const TriangleMesh* mesh = nullptr;  ///< scan frame [mm]; of moderate density: the picture
-                                       ///< carries the detail
+  const TriangleMesh* mesh = nullptr;  ///< scan frame [mm]: model.ply, or coarser
   std::span<const Rgb8> colors;        ///< #V for what no keyframe sees, or empty
   const RgbdCamera* camera = nullptr;
   std::span<const Keyframe> keyframes;
   std::span<const KeyframeView> views;     ///< of the keyframes; empty: rendered here
-  std::span<const Eigen::Vector3f> gains;  ///< of the keyframes; empty: solved here
+  std::span<const ColorGain> gains;  ///< of the keyframes; empty: solved here
 };
 
 /// Writes the textured model beside model.ply: textured.png first, what names it afterwards.

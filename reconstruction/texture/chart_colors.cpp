@@ -56,7 +56,7 @@ ChartColors::ChartColors(const TriangleMesh& mesh,
                          std::span<const Rgb8> given,
                          const VertexObservations& observations,
                          std::span<const Keyframe> keyframes,
-                         std::span<const Eigen::Vector3f> gains)
+                         std::span<const ColorGain> gains)
     : keyframes_(keyframes),
       gains_(gains),
       vertex_colors_(completeColors(mesh, given, observations)) {}
@@ -68,7 +68,7 @@ Eigen::Vector3f ChartColors::inView(int view, const Eigen::Vector2f& place) cons
   constexpr float kWithin = 1.0F - 1e-4F;
   const float u = std::clamp(place.x(), 0.0F, static_cast<float>(image.width() - 2) + kWithin);
   const float v = std::clamp(place.y(), 0.0F, static_cast<float>(image.height() - 2) + kWithin);
-  return sampleColor(image, u, v).cwiseQuotient(gains_[k]);
+  return gains_[k].leveled(sampleColor(image, u, v));
 }
 
 std::vector<SeamEdge> ChartColors::seams(const FlatCharts& flat,

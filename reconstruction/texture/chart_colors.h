@@ -19,7 +19,7 @@ class ChartColors {
               std::span<const Rgb8> given,
               const VertexObservations& observations,
               std::span<const Keyframe> keyframes,
-              std::span<const Eigen::Vector3f> gains);
+              std::span<const ColorGain> gains);
 
   [[nodiscard]] std::span<const Eigen::Vector3f> vertexColors() const { return vertex_colors_; }
   /// In a view's picture, exposure levelled; places outside take the rim's colour.
@@ -30,7 +30,7 @@ class ChartColors {
 
  private:
   std::span<const Keyframe> keyframes_;
-  std::span<const Eigen::Vector3f> gains_;
+  std::span<const ColorGain> gains_;
   std::vector<Eigen::Vector3f> vertex_colors_;
 };
 

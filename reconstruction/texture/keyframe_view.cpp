@@ -177,4 +177,11 @@ Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
   return result;
 }
 
+Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
+                                                const RgbdCamera& camera,
+                                                std::span<const Keyframe> keyframes,
+                                                const ColorMapOptions& options) {
+  return renderViews(mesh, camera, keyframes, placementsByPose(camera, keyframes), options);
+}
+
 }  // namespace tarsus

@@ -84,4 +84,10 @@ class KeyframeView {
     std::span<const PicturePlacement> placements,
     const ColorMapOptions& options);
 
+/// The same from where the keyframes' poses place them.
+[[nodiscard]] Expected<std::vector<KeyframeView>> renderViews(const TriangleMesh& mesh,
+                                                              const RgbdCamera& camera,
+                                                              std::span<const Keyframe> keyframes,
+                                                              const ColorMapOptions& options);
+
 }  // namespace tarsus

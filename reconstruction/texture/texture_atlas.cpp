@@ -197,7 +197,7 @@ Expected<TextureAtlas> makeTextureAtlas(const TextureAtlasSource& source,
   const TriangleMesh mesh = withNormals(*source.mesh);
   job.report("atlas", 0.0);
   VertexObservations observations(mesh, source.views);
-  std::vector<Eigen::Vector3f> gains(source.gains.begin(), source.gains.end());
+  std::vector<ColorGain> gains(source.gains.begin(), source.gains.end());
   if (gains.empty() && !source.keyframes.empty()) {
     gains =
         solvedGains(observations, mesh.vertices.size(), static_cast<int>(source.keyframes.size()));

@@ -27,7 +27,7 @@ struct TextureAtlasSource {
   std::span<const Rgb8> colors;            ///< #V for what no view sees; or empty; black: unknown
   std::span<const KeyframeView> views;     ///< where each keyframe shows a vertex
   std::span<const Keyframe> keyframes;     ///< their pictures, in the same order
-  std::span<const Eigen::Vector3f> gains;  ///< of the pictures; empty: solved from what they share
+  std::span<const ColorGain> gains;  ///< of the pictures; empty: solved from what they share
 };
 
 struct TextureAtlas {

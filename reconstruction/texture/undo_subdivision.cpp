@@ -22,8 +22,11 @@ bool has(const Corners& face, int vertex) {
 /// The mesh while vertices are taken out.
 class Joiner {
  public:
-  explicit Joiner(const TriangleMesh& mesh)
-      : mesh_(mesh), faces_(mesh.faces), around_(mesh.vertices.size()) {
+  Joiner(const TriangleMesh& mesh, double max_edge_mm)
+      : mesh_(mesh),
+        max_edge_mm_(static_cast<float>(max_edge_mm)),
+        faces_(mesh.faces),
+        around_(mesh.vertices.size()) {
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (const int vertex : faces_[f]) {
         around_[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(f));
@@ -101,6 +104,9 @@ class Joiner {
     }
     std::size_t common = 0;
     for (const int neighbor : ring) {
+      if ((at(neighbor) - at(end)).norm() > max_edge_mm_) {
+        return false;
+      }
       const auto& there = around_[static_cast<std::size_t>(neighbor)];
       common += neighbor != end && std::any_of(there.begin(), there.end(), [&](int face) {
                   return has(faces_[static_cast<std::size_t>(face)], end);
@@ -128,14 +134,15 @@ class Joiner {
   }
 
   const TriangleMesh& mesh_;
+  float max_edge_mm_;
   std::vector<Corners> faces_;
   std::vector<std::vector<int>> around_;  // faces of each vertex
 };
 
 }  // namespace
 
-CompactedMesh undoSubdivision(const TriangleMesh& mesh) {
-  Joiner joiner(mesh);
+CompactedMesh undoSubdivision(const TriangleMesh& mesh, double max_edge_mm) {
+  Joiner joiner(mesh, max_edge_mm);
   // A vertex that another still holds in place goes in a later pass.
   constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -53,9 +53,9 @@ const SeenPlace* VertexObservations::find(int vertex, int view) const {
   return nullptr;
 }
 
-void VertexObservations::level(std::span<const Eigen::Vector3f> gains) {
+void VertexObservations::level(std::span<const ColorGain> gains) {
   for (SeenPlace& seen : places_) {
-    seen.color = seen.color.cwiseQuotient(gains[static_cast<std::size_t>(seen.view)]);
+    seen.color = gains[static_cast<std::size_t>(seen.view)].leveled(seen.color);
   }
 }
 

@@ -29,7 +29,7 @@ class VertexObservations {
   /// Null where the view does not see the vertex.
   [[nodiscard]] const SeenPlace* find(int vertex, int view) const;
   /// Divides every colour by its image's gain.
-  void level(std::span<const Eigen::Vector3f> gains);
+  void level(std::span<const ColorGain> gains);
 
  private:
   std::vector<std::size_t> first_;  ///< #V + 1
