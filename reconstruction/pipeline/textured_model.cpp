@@ -59,7 +59,7 @@ Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
   }
   std::vector<KeyframeView> rendered;
   if (source.views.empty()) {
-    auto views = renderViews(*source.mesh, *source.camera, source.keyframes, options.color, job);
+    auto views = renderViews(*source.mesh, *source.camera, source.keyframes, options.color);
     if (!views) {
       return tl::unexpected(views.error());
     }

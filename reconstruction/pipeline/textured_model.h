@@ -26,8 +26,8 @@ struct TexturedModelSource {
   std::span<const Rgb8> colors;        ///< #V for what no keyframe sees, or empty
   const RgbdCamera* camera = nullptr;
   std::span<const Keyframe> keyframes;
-  std::span<const KeyframeView> views;     ///< of the keyframes; empty: rendered here
-  std::span<const ColorGain> gains;  ///< of the keyframes; empty: solved here
+  std::span<const KeyframeView> views;  ///< of the keyframes; empty: rendered here
+  std::span<const ColorGain> gains;     ///< of the keyframes; empty: solved here
 };
 
 /// Writes the textured model beside model.ply: textured.png first, what names it afterwards.

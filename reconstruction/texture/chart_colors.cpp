@@ -1,11 +1,9 @@
 #include "reconstruction/texture/chart_colors.h"
 
-#include "reconstruction/base/parallel.h"
 #include "reconstruction/texture/color_sampling.h"
 #include "reconstruction/texture/diffusion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace tarsus {
@@ -38,16 +36,63 @@ std::vector<Eigen::Vector3f> completeColors(const TriangleMesh& mesh,
   return colors;
 }
 
-/// The corner of a face that is this vertex.
-int cornerOf(const Eigen::Vector3i& face, int vertex) {
-  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
-}
-
 /// One side of a seam: a chart and the edge's ends among its vertices.
 struct SeamSide {
   const Chart* chart = nullptr;
   int first = 0;
   int second = 0;
+  int first_uv = 0;  ///< of the chart, among all charts' vertices
+
+  [[nodiscard]] int vertexAt(int end) const {
+    return chart->vertices[static_cast<std::size_t>(end)];
+  }
+  [[nodiscard]] Eigen::Vector2f placeAt(int end) const {
+    return chart->places[static_cast<std::size_t>(end)];
+  }
+};
+
+/// Finds the edges of faces in their charts.
+class SeamFinder {
+ public:
+  explicit SeamFinder(const FlatCharts& flat)
+      : flat_(flat), first_uv_(flat.charts.size() + 1, 0), place_(flat.chart_of.size(), 0) {
+    for (std::size_t i = 0; i < flat.charts.size(); ++i) {
+      first_uv_[i + 1] = first_uv_[i] + static_cast<int>(flat.charts[i].vertices.size());
+      for (std::size_t f = 0; f < flat.charts[i].faces.size(); ++f) {
+        place_[static_cast<std::size_t>(flat.charts[i].faces[f])] = f;
+      }
+    }
+  }
+
+  [[nodiscard]] SeamSide side(std::size_t face, int edge) const {
+    const Eigen::Vector3i& corners = cornersOf(face);
+    return withChart(face, corners[edge], corners[(edge + 1) % 3]);
+  }
+
+  /// The same edge as the face beyond has it.
+  [[nodiscard]] SeamSide beyond(std::size_t face, const SeamSide& here) const {
+    const Eigen::Vector3i& corners = cornersOf(face);
+    SeamSide there = withChart(face, corners[0], corners[0]);
+    for (const int corner : corners) {
+      const int vertex = there.vertexAt(corner);
+      there.first = vertex == here.vertexAt(here.first) ? corner : there.first;
+      there.second = vertex == here.vertexAt(here.second) ? corner : there.second;
+    }
+    return there;
+  }
+
+ private:
+  [[nodiscard]] const Eigen::Vector3i& cornersOf(std::size_t face) const {
+    return flat_.charts[static_cast<std::size_t>(flat_.chart_of[face])].corners[place_[face]];
+  }
+  [[nodiscard]] SeamSide withChart(std::size_t face, int first, int second) const {
+    const auto chart = static_cast<std::size_t>(flat_.chart_of[face]);
+    return {&flat_.charts[chart], first, second, first_uv_[chart]};
+  }
+
+  const FlatCharts& flat_;
+  std::vector<int> first_uv_;       // of each chart
+  std::vector<std::size_t> place_;  // of each face in its chart
 };
 
 }  // namespace
@@ -73,63 +118,31 @@ Eigen::Vector3f ChartColors::inView(int view, const Eigen::Vector2f& place) cons
 
 std::vector<SeamEdge> ChartColors::seams(const FlatCharts& flat,
                                          const FaceNeighbors& neighbors) const {
-  std::vector<int> first_uv(flat.charts.size() + 1, 0);
-  std::vector<int> place_in_chart(flat.chart_of.size(), 0);
-  for (std::size_t i = 0; i < flat.charts.size(); ++i) {
-    first_uv[i + 1] = first_uv[i] + static_cast<int>(flat.charts[i].vertices.size());
-    for (std::size_t f = 0; f < flat.charts[i].faces.size(); ++f) {
-      place_in_chart[static_cast<std::size_t>(flat.charts[i].faces[f])] = static_cast<int>(f);
-    }
-  }
-  const auto cornersOf = [&](std::size_t face) {
-    const Chart& chart = flat.charts[static_cast<std::size_t>(flat.chart_of[face])];
-    return chart.corners[static_cast<std::size_t>(place_in_chart[face])];
-  };
   const auto colorAt = [&](const SeamSide& side, float t) -> Eigen::Vector3f {
-    const auto a = static_cast<std::size_t>(side.first);
-    const auto b = static_cast<std::size_t>(side.second);
-    const Chart& chart = *side.chart;
-    if (chart.view >= 0) {
-      return inView(chart.view, (1.0F - t) * chart.places[a] + t * chart.places[b]);
+    if (side.chart->view >= 0) {
+      return inView(side.chart->view,
+                    (1.0F - t) * side.placeAt(side.first) + t * side.placeAt(side.second));
     }
-    return (1.0F - t) * vertex_colors_[static_cast<std::size_t>(chart.vertices[a])] +
-           t * vertex_colors_[static_cast<std::size_t>(chart.vertices[b])];
+    return (1.0F - t) * vertex_colors_[static_cast<std::size_t>(side.vertexAt(side.first))] +
+           t * vertex_colors_[static_cast<std::size_t>(side.vertexAt(side.second))];
   };
+  const SeamFinder finder(flat);
   std::vector<SeamEdge> result;
   for (std::size_t f = 0; f < neighbors.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const int beyond = neighbors[f][static_cast<std::size_t>(k)];
-      if (beyond <= static_cast<int>(f)) {
-        continue;
-      }
       const auto other = static_cast<std::size_t>(beyond);
-      const auto own_chart = static_cast<std::size_t>(flat.chart_of[f]);
-      const auto other_chart = static_cast<std::size_t>(flat.chart_of[other]);
-      if (own_chart == other_chart) {
+      if (beyond <= static_cast<int>(f) || flat.chart_of[f] == flat.chart_of[other]) {
         continue;
       }
-      const Chart& one = flat.charts[own_chart];
-      const Chart& two = flat.charts[other_chart];
-      const Eigen::Vector3i own = cornersOf(f);
-      const SeamSide here{&one, own[k], own[(k + 1) % 3]};
-      const int first_vertex = one.vertices[static_cast<std::size_t>(here.first)];
-      const int second_vertex = one.vertices[static_cast<std::size_t>(here.second)];
-      const Eigen::Vector3i beyond_corners = cornersOf(other);
-      Eigen::Vector3i beyond_vertices;
-      for (int c = 0; c < 3; ++c) {
-        beyond_vertices[c] = two.vertices[static_cast<std::size_t>(beyond_corners[c])];
-      }
-      const SeamSide there{&two,
-                           beyond_corners[cornerOf(beyond_vertices, first_vertex)],
-                           beyond_corners[cornerOf(beyond_vertices, second_vertex)]};
-      const float length = (one.places[static_cast<std::size_t>(here.first)] -
-                            one.places[static_cast<std::size_t>(here.second)])
-                               .norm();
+      const SeamSide here = finder.side(f, k);
+      const SeamSide there = finder.beyond(other, here);
+      const float length = (here.placeAt(here.first) - here.placeAt(here.second)).norm();
       const int samples = static_cast<int>(std::clamp(std::ceil(length), 1.0F, kMaxSamples));
-      SeamEdge seam{.first_uv = first_uv[own_chart] + here.first,
-                    .second_uv = first_uv[own_chart] + here.second,
-                    .other_first_uv = first_uv[other_chart] + there.first,
-                    .other_second_uv = first_uv[other_chart] + there.second};
+      SeamEdge seam{.first_uv = here.first_uv + here.first,
+                    .second_uv = here.first_uv + here.second,
+                    .other_first_uv = there.first_uv + there.first,
+                    .other_second_uv = there.first_uv + there.second};
       for (int s = 0; s < samples; ++s) {
         const float t = (static_cast<float>(s) + 0.5F) / static_cast<float>(samples);
         seam.step.push_back(colorAt(here, t) - colorAt(there, t));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace tarsus {
@@ -144,7 +145,8 @@ class Alignment {
       left -= own;
       useSize(size.factor);
       measureNoise();
-      result_.rigid_iterations += iterate(own, last, [this](PictureFit& fit) {
+      AlignmentPhase& phase = last ? result_.rigid_full_size : result_.rigid_small_sizes;
+      iterate(own, phase, [this](PictureFit& fit) {
         fit.planRigidStep(vertices_, agreement_.wanted(), variance_);
       });
     }
@@ -153,7 +155,7 @@ class Alignment {
       for (PictureFit& fit : fits_) {
         fit.useLattice();
       }
-      result_.lattice_iterations = iterate(options_.lattice_iterations, true, [this](auto& fit) {
+      iterate(options_.lattice_iterations, result_.lattice, [this](PictureFit& fit) {
         fit.planLatticeStep(vertices_, agreement_.wanted(), variance_);
       });
     }
@@ -210,37 +212,37 @@ class Alignment {
     }
   }
 
-  void note(double energy, bool keep) {
-    if (keep) {
-      result_.rmse.push_back(std::sqrt(energy / total_weight_));
-    }
-  }
-
-  /// @return iterations done
   template <typename Plan>
-  int iterate(int iterations, bool keep_rmse, const Plan& plan) {
+  void iterate(int iterations, AlignmentPhase& phase, const Plan& plan) {
     if (iterations <= 0 || !(total_weight_ > 0.0)) {
-      return 0;
+      return;
     }
+    const auto start = std::chrono::steady_clock::now();
+    const bool full_size = &phase != &result_.rigid_small_sizes;
     double current = energy();
-    note(current, keep_rmse && result_.rmse.empty());
-    for (int done = 0; done < iterations; ++done) {
-      if (job_.stopped()) {
-        return done;
+    const auto note = [&] {
+      if (full_size) {
+        result_.rmse.push_back(std::sqrt(current / total_weight_));
       }
+    };
+    if (result_.rmse.empty()) {
+      note();
+    }
+    for (int done = 0; done < iterations && !job_.stopped(); ++done) {
       report();
       parallelFor(static_cast<int>(fits_.size()),
                   [&](int k) { plan(fits_[static_cast<std::size_t>(k)]); });
-      result_.observation_iterations += static_cast<double>(observations_);
       const double next = step(current);
-      note(next, keep_rmse);
       const bool slow = current - next < options_.least_relative_drop * current;
       current = next;
+      note();
+      ++phase.iterations;
       if (slow) {
-        return done + 1;
+        break;
       }
     }
-    return iterations;
+    phase.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   /// Takes as much of the planned step as makes the whole better.

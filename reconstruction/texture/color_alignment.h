@@ -47,14 +47,24 @@ struct AlignedPicture {
   std::optional<PoseAnchor> anchor;  ///< what the keyframe's depth says about the place
 };
 
+/// Iterations of one kind, and how long they took.
+struct AlignmentPhase {
+  int iterations = 0;
+  double seconds = 0.0;
+};
+
 struct ColorAlignment {
-  int rigid_iterations = 0;  ///< done
-  int lattice_iterations = 0;
-  /// Robust photometric RMSE [grey levels] at the start and after each iteration of the phase at
+  AlignmentPhase rigid_small_sizes;  ///< at 1/4 and 1/2
+  AlignmentPhase rigid_full_size;
+  AlignmentPhase lattice;
+  /// Robust photometric RMSE [grey levels], priors included, before and after each iteration at
   /// full size: never goes up.
   std::vector<double> rmse;
   std::size_t vertex_observations = 0;  ///< at full size
-  double observation_iterations = 0.0;  ///< vertex observations, summed over all iterations done
+
+  [[nodiscard]] int iterations() const {
+    return rigid_small_sizes.iterations + rigid_full_size.iterations + lattice.iterations;
+  }
 };
 
 /// Moves pictures until they agree about the colours of the surface: in turns, each vertex takes

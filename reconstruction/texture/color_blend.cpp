@@ -78,8 +78,7 @@ SeenColors blendViews(const TriangleMesh& mesh,
         if (const auto seen = views[k].observe(mesh.vertices[i], mesh.normals[i])) {
           const Eigen::Vector3f raw = views[k].color(*seen);
           const float clipped = raw.maxCoeff() >= kClippedLevel ? kClippedWeight : 1.0F;
-          candidates.push_back(
-              {.color = gains[k].leveled(raw), .weight = seen->weight * clipped});
+          candidates.push_back({.color = gains[k].leveled(raw), .weight = seen->weight * clipped});
         }
       }
       if (!candidates.empty()) {

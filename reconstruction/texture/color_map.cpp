@@ -85,6 +85,9 @@ class SurfaceColoring {
   }
 
   Expected<ColoredSurface> run(const ExtractedSurface& surface) {
+    if (job_.stopped()) {
+      return fail(ErrorCode::Cancelled);
+    }
     job_.report("texture", 0.0);
     ExtractedSurface coarse = surface;
     if (coarse.mesh.normals.empty()) {

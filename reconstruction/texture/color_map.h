@@ -33,7 +33,7 @@ struct ColorMapOptions {
 struct ColoredSurface {
   TexturedMesh model;
   std::vector<PicturePlacement> placements;  ///< of the keyframes, as alignment left them
-  std::vector<ColorGain> gains;        ///< of the keyframes
+  std::vector<ColorGain> gains;              ///< of the keyframes
   ColorAlignment alignment;
 };
 
@@ -43,7 +43,7 @@ struct ColoredSurface {
 /// @param surface  scan frame [mm]; need not be closed; its colours are the fallback
 /// @return the subdivided mesh; original vertices keep their positions to the last bit and come
 /// first
-/// @errors KeyframesMissing, SurfaceEmpty, CameraFactsInvalid
+/// @errors KeyframesMissing, SurfaceEmpty, CameraFactsInvalid; Cancelled if stopped before it began
 [[nodiscard]] Expected<ColoredSurface> colorSurface(const ExtractedSurface& surface,
                                                     const RgbdCamera& camera,
                                                     std::span<const Keyframe> keyframes,

@@ -41,4 +41,29 @@ FaceNeighbors faceNeighbors(const TriangleMesh& mesh) {
   return neighbors;
 }
 
+FacePatches connectedPatches(const FaceNeighbors& neighbors, const std::vector<int>& labels) {
+  FacePatches result;
+  result.patch_of.assign(labels.size(), -1);
+  for (std::size_t seed = 0; seed < labels.size(); ++seed) {
+    if (result.patch_of[seed] >= 0) {
+      continue;
+    }
+    const int number = static_cast<int>(result.patches.size());
+    std::vector<int> patch{static_cast<int>(seed)};
+    result.patch_of[seed] = number;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for (const int beyond : neighbors[static_cast<std::size_t>(patch[i])]) {
+        const auto f = static_cast<std::size_t>(beyond);
+        if (beyond >= 0 && result.patch_of[f] < 0 && labels[f] == labels[seed]) {
+          result.patch_of[f] = number;
+          patch.push_back(beyond);
+        }
+      }
+    }
+    std::sort(patch.begin(), patch.end());
+    result.patches.push_back(std::move(patch));
+  }
+  return result;
+}
+
 }  // namespace tarsus

@@ -13,4 +13,12 @@ using FaceNeighbors = std::vector<std::array<int, 3>>;
 
 [[nodiscard]] FaceNeighbors faceNeighbors(const TriangleMesh& mesh);
 
+/// Numbers of the connected sets of faces of one label, counted in the order of their lowest face.
+struct FacePatches {
+  std::vector<int> patch_of;              ///< #F
+  std::vector<std::vector<int>> patches;  ///< faces of each, ascending
+};
+[[nodiscard]] FacePatches connectedPatches(const FaceNeighbors& neighbors,
+                                           const std::vector<int>& labels);
+
 }  // namespace tarsus

@@ -15,9 +15,9 @@ constexpr std::size_t kGainSamples = 40'000;
 constexpr double kShrink = 0.9;  // of all charts, until they fit
 constexpr double kLeastScale = 0.01;
 
-std::vector<Eigen::Vector3f> solvedGains(const VertexObservations& observations,
-                                         std::size_t vertices,
-                                         int image_count) {
+std::vector<ColorGain> solvedGains(const VertexObservations& observations,
+                                   std::size_t vertices,
+                                   int image_count) {
   const std::size_t step = std::max<std::size_t>(1, vertices / kGainSamples);
   std::vector<ExposureSample> samples;
   for (std::size_t i = 0; i < vertices; i += step) {
@@ -173,16 +173,49 @@ ColorImage paint(std::span<const ChartTexels> texels,
   return atlas;
 }
 
-struct Flattened {
-  FlatCharts flat;
-  std::vector<Eigen::Vector3f> offsets;
-};
-
 TriangleMesh withNormals(TriangleMesh mesh) {
   if (mesh.normals.size() != mesh.vertices.size()) {
     mesh.normals = vertexNormals(mesh);
   }
   return mesh;
+}
+
+std::vector<ColorGain> gainsOf(const TextureAtlasSource& source,
+                               const VertexObservations& observations) {
+  if (!source.gains.empty() || source.keyframes.empty()) {
+    return {source.gains.begin(), source.gains.end()};
+  }
+  return solvedGains(
+      observations, source.mesh->vertices.size(), static_cast<int>(source.keyframes.size()));
+}
+
+/// Charts to picture.
+Expected<TextureAtlas> assemble(const TriangleMesh& mesh,
+                                FlatCharts flat,
+                                const ChartColors& colors,
+                                std::span<const SeamEdge> seams,
+                                const TextureAtlasOptions& options) {
+  std::vector<Eigen::Vector3f> none;
+  for (const Chart& chart : flat.charts) {
+    none.resize(none.size() + chart.vertices.size(), Eigen::Vector3f::Zero());
+  }
+  std::vector<Eigen::Vector3f> offsets =
+      options.level_seams ? levelSeams(flat.charts, seams, options.seams) : none;
+  if (offsets.empty()) {
+    offsets = none;  // the equations could not be solved: seams stay as they are
+  }
+  const Expected<Layout> layout = pack(flat.charts, options);
+  if (!layout) {
+    return tl::unexpected(layout.error());
+  }
+  TextureAtlas result{.charts = static_cast<int>(flat.charts.size()),
+                      .texels_per_px = static_cast<double>(layout->scale),
+                      .seam_step_before = meanStep(seams, none),
+                      .seam_step_after = meanStep(seams, offsets)};
+  const std::vector<ChartTexels> texels = placeCharts(flat.charts, *layout, options.padding_px);
+  result.image = paint(texels, colors, offsets, *layout);
+  result.model = withPlaces(mesh, texels, layout->packing);
+  return result;
 }
 
 }  // namespace
@@ -194,14 +227,14 @@ Expected<TextureAtlas> makeTextureAtlas(const TextureAtlasSource& source,
     return fail(ErrorCode::SurfaceEmpty, "no surface to make a textured model of");
   }
   TARSUS_REQUIRE(source.views.size() == source.keyframes.size(), "one view for each keyframe");
+  TARSUS_REQUIRE(source.gains.empty() || source.gains.size() == source.keyframes.size(),
+                 "one gain for each keyframe, or none at all");
+  TARSUS_REQUIRE(source.colors.empty() || source.colors.size() == source.mesh->vertices.size(),
+                 "one colour for each vertex, or none at all");
   const TriangleMesh mesh = withNormals(*source.mesh);
   job.report("atlas", 0.0);
   VertexObservations observations(mesh, source.views);
-  std::vector<ColorGain> gains(source.gains.begin(), source.gains.end());
-  if (gains.empty() && !source.keyframes.empty()) {
-    gains =
-        solvedGains(observations, mesh.vertices.size(), static_cast<int>(source.keyframes.size()));
-  }
+  const std::vector<ColorGain> gains = gainsOf(source, observations);
   observations.level(gains);
   if (job.stopped()) {
     return fail(ErrorCode::Cancelled);
@@ -209,36 +242,19 @@ Expected<TextureAtlas> makeTextureAtlas(const TextureAtlasSource& source,
   job.report("atlas", 0.3);
   const FaceNeighbors neighbors = faceNeighbors(mesh);
   const std::vector<int> views = chooseFaceViews(mesh, neighbors, observations, options.labels);
-  FlatCharts flat = layOutCharts(mesh, neighbors, observations, views, texelsPerMm(mesh));
-  const ChartColors colors(mesh, source.colors, observations, source.keyframes, gains);
   if (job.stopped()) {
     return fail(ErrorCode::Cancelled);
   }
   job.report("atlas", 0.6);
+  FlatCharts flat = layOutCharts(mesh, neighbors, observations, views, texelsPerMm(mesh));
+  const ChartColors colors(mesh, source.colors, observations, source.keyframes, gains);
   const std::vector<SeamEdge> seams = colors.seams(flat, neighbors);
-  std::vector<Eigen::Vector3f> offsets = levelSeams(flat.charts, seams, options.seams);
-  const Expected<Layout> layout = pack(flat.charts, options);
-  if (!layout) {
-    return tl::unexpected(layout.error());
+  auto result = assemble(mesh, std::move(flat), colors, seams, options);
+  if (result) {
+    result->unseen_fraction = static_cast<double>(std::count(views.begin(), views.end(), -1)) /
+                              static_cast<double>(views.size());
+    job.report("atlas", 1.0);
   }
-  if (job.stopped()) {
-    return fail(ErrorCode::Cancelled);
-  }
-  job.report("atlas", 0.8);
-  TextureAtlas result{.charts = static_cast<int>(flat.charts.size()),
-                      .texels_per_px = static_cast<double>(layout->scale)};
-  result.unseen_fraction = static_cast<double>(std::count(views.begin(), views.end(), -1)) /
-                           static_cast<double>(views.size());
-  const std::vector<Eigen::Vector3f> none(offsets.size(), Eigen::Vector3f::Zero());
-  if (!options.level_seams) {
-    offsets = none;
-  }
-  result.seam_step_before = meanStep(seams, none);
-  result.seam_step_after = meanStep(seams, offsets);
-  const std::vector<ChartTexels> texels = placeCharts(flat.charts, *layout, options.padding_px);
-  result.image = paint(texels, colors, offsets, *layout);
-  result.model = withPlaces(mesh, texels, layout->packing);
-  job.report("atlas", 1.0);
   return result;
 }
 

@@ -23,11 +23,11 @@ struct TextureAtlasOptions {
 
 /// What an atlas is made from.
 struct TextureAtlasSource {
-  const TriangleMesh* mesh = nullptr;      ///< scan frame [mm]
-  std::span<const Rgb8> colors;            ///< #V for what no view sees; or empty; black: unknown
-  std::span<const KeyframeView> views;     ///< where each keyframe shows a vertex
-  std::span<const Keyframe> keyframes;     ///< their pictures, in the same order
-  std::span<const ColorGain> gains;  ///< of the pictures; empty: solved from what they share
+  const TriangleMesh* mesh = nullptr;   ///< scan frame [mm]
+  std::span<const Rgb8> colors;         ///< #V for what no view sees; or empty; black: unknown
+  std::span<const KeyframeView> views;  ///< where each keyframe shows a vertex
+  std::span<const Keyframe> keyframes;  ///< their pictures, in the same order
+  std::span<const ColorGain> gains;     ///< of the pictures; empty: solved from what they share
 };
 
 struct TextureAtlas {

@@ -28,12 +28,4 @@ struct ViewLabelOptions {
                                                const VertexObservations& observations,
                                                const ViewLabelOptions& options);
 
-/// Numbers of the connected sets of faces of one label, counted in the order of their lowest face.
-struct FacePatches {
-  std::vector<int> patch_of;              ///< #F
-  std::vector<std::vector<int>> patches;  ///< faces of each, ascending
-};
-[[nodiscard]] FacePatches connectedPatches(const FaceNeighbors& neighbors,
-                                           const std::vector<int>& labels);
-
 }  // namespace tarsus

@@ -10,11 +10,16 @@
 namespace tarsus {
 namespace {
 
-/// TO BE WIRED: here and in runStage alone the bench tells the stage whether to align, and takes
-/// from it what the alignment found. Until it can, both ways are the same.
+/// "average" is what alignment starts from: blended views, as the poses place them. "aligned" does
+/// all its iterations, so that its time can be stated for them.
 ColorMapOptions stageOptions(bool align) {
   ColorMapOptions options;
-  static_cast<void>(align);
+  options.align = align;
+  if (align) {
+    options.alignment.least_relative_drop = -1.0;
+  } else {
+    options.fit.sweeps = 0;
+  }
   return options;
 }
 
@@ -24,9 +29,20 @@ TextureRun runStage(const TextureScan& scan, std::span<const Keyframe> keyframes
   const ColorMapOptions options = stageOptions(align);
   TextureRun run{.method = align ? "aligned" : "average"};
   const StopWatch watch;
-  run.model = orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
+  ColoredSurface colored =
+      orExit(colorSurface(scan.surface, scan.camera, keyframes, options, Job{}));
   run.seconds = watch.wall_s();
-  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, options);
+  run.model = std::move(colored.model);
+  run.photometric_rmse =
+      photometricRmse(run.model, scan.camera, keyframes, colored.placements, options);
+  if (align) {
+    const ColorAlignment& alignment = colored.alignment;
+    run.further = {{"observations", static_cast<double>(alignment.vertex_observations)},
+                   {"rigid_seconds", alignment.rigid_full_size.seconds},
+                   {"rigid_iterations", alignment.rigid_full_size.iterations},
+                   {"non_rigid_seconds", alignment.lattice.seconds},
+                   {"non_rigid_iterations", alignment.lattice.iterations}};
+  }
   return run;
 }
 
@@ -35,7 +51,8 @@ TextureRun plainRun(const TextureScan& scan, std::span<const Keyframe> keyframes
   run.model.mesh = scan.surface.mesh;
   run.model.colors = scan.surface.colors;
   run.model.observations = scan.surface.observations;
-  run.photometric_rmse = photometricRmse(run.model, scan.camera, keyframes, {});
+  run.photometric_rmse = photometricRmse(
+      run.model, scan.camera, keyframes, placementsByPose(scan.camera, keyframes), {});
   return run;
 }
 
@@ -65,7 +82,7 @@ TextureRun trueColors(const TexturedMesh& model, const TexturedMesh& foot) {
 long countObservations(const TexturedMesh& model,
                        const RgbdCamera& camera,
                        std::span<const Keyframe> keyframes) {
-  const auto views = orExit(renderViews(model.mesh, camera, keyframes, {}, Job{}));
+  const auto views = orExit(renderViews(model.mesh, camera, keyframes, {}));
   const auto normals = model.mesh.normals.empty() ? vertexNormals(model.mesh) : model.mesh.normals;
   long count = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {

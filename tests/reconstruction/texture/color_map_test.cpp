@@ -22,9 +22,9 @@ TexturedMesh colored(const ExtractedSurface& surface,
                      const RgbdCamera& camera,
                      const std::vector<Keyframe>& keyframes,
                      const ColorMapOptions& options = {}) {
-  Expected<TexturedMesh> model = colorSurface(surface, camera, keyframes, options, Job{});
-  EXPECT_TRUE(model.has_value());
-  return model ? std::move(*model) : TexturedMesh();
+  Expected<ColoredSurface> colored = colorSurface(surface, camera, keyframes, options, Job{});
+  EXPECT_TRUE(colored.has_value());
+  return colored ? std::move(colored->model) : TexturedMesh();
 }
 
 /// Eight good views of the plane alone, taken once for all tests that need nothing else.
@@ -280,7 +280,7 @@ TEST(ColorSurface, GivesTheSameBitsTwice) {
 TEST(ColorSurface, RefusesWhatItCannotColour) {
   const std::vector<Keyframe> keyframes = ringOfKeyframes({}, smallCamera(), 1);
   const ExtractedSurface surface = planeSurface(10.0, 5.0);
-  const auto code = [](const Expected<TexturedMesh>& result) {
+  const auto code = [](const Expected<ColoredSurface>& result) {
     EXPECT_FALSE(result.has_value());
     return result ? ErrorCode::BadOption : result.error().code;
   };
@@ -302,7 +302,8 @@ TEST(PhotometricRmse, IsTheNoiseOfTheImagesForGoodPosesAndGrowsWithBadOnes) {
   const ExtractedSurface surface = planeSurface(kHalf_mm, 2.0);
   std::vector<Keyframe> keyframes = ringOfKeyframes(scene, smallCamera(), 8, 6.0);
   const TexturedMesh model = colored(surface, smallCamera(), keyframes);
-  const double good = photometricRmse(model, smallCamera(), keyframes, {});
+  const double good = photometricRmse(
+      model, smallCamera(), keyframes, placementsByPose(smallCamera(), keyframes), {});
   // Luminance of independent noise of 6 levels per channel: 6 * |(0.299, 0.587, 0.114)| = 4.0, less
   // by bilinear sampling (two thirds), more by the model's own noise and the rim's background.
   EXPECT_GT(good, 2.0);
@@ -311,8 +312,10 @@ TEST(PhotometricRmse, IsTheNoiseOfTheImagesForGoodPosesAndGrowsWithBadOnes) {
     keyframes[k].scan_from_camera.translation().x() += k % 2 == 0 ? 2.0 : -2.0;
   }
   const TexturedMesh shifted = colored(surface, smallCamera(), keyframes);
-  EXPECT_GT(photometricRmse(shifted, smallCamera(), keyframes, {}), 2.0 * good);
-  EXPECT_EQ(photometricRmse(model, smallCamera(), {}, {}), 0.0);
+  EXPECT_GT(photometricRmse(
+                shifted, smallCamera(), keyframes, placementsByPose(smallCamera(), keyframes), {}),
+            2.0 * good);
+  EXPECT_EQ(photometricRmse(model, smallCamera(), {}, {}, {}), 0.0);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::vector<Keyframe> twoExposures(const TexturedScene& scene, const RgbdCamera&
 TextureAtlas makeAtlas(const ExtractedSurface& surface,
                        const std::vector<Keyframe>& keyframes,
                        const TextureAtlasOptions& options = {}) {
-  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {}, Job{});
+  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {});
   EXPECT_TRUE(views);
   auto atlas = makeTextureAtlas(
       {.mesh = &surface.mesh, .colors = surface.colors, .views = *views, .keyframes = keyframes},
@@ -150,13 +150,13 @@ TEST(TextureAtlas, LevelsSeamsThatExposureLeft) {
   const TexturedScene scene{.period_mm = 25.0};
   const std::vector<Keyframe> keyframes = twoExposures(scene, smallCamera());
   const ExtractedSurface surface = planeSurface(kHalf_mm, 2.0);
-  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {}, Job{});
+  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {});
   ASSERT_TRUE(views);
   // The pictures' gains are said to be 1: a tenth of the colour, 10 to 30 levels, is left.
-  const std::vector<Eigen::Vector3f> gains(2, Eigen::Vector3f::Ones());
+  const std::vector<ColorGain> gains(2);
   const TextureAtlasSource source{
       .mesh = &surface.mesh, .views = *views, .keyframes = keyframes, .gains = gains};
-  const auto levelled = makeTextureAtlas(source, {}, Job{});
+  const auto levelled = makeTextureAtlas(source, {});
   const auto raw = makeTextureAtlas(source, {.level_seams = false}, Job{});
   ASSERT_TRUE(levelled && raw);
   const double before = worstSeamStep(*raw, kInner_mm);
@@ -265,7 +265,7 @@ TEST(TextureAtlas, ShrinksWhatDoesNotFitAndRefusesTheImpossible) {
   EXPECT_LE(small.image.width(), 128);
   EXPECT_LE(small.image.height(), 128);
   EXPECT_LT(small.texels_per_px, 1.0);
-  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {}, Job{});
+  const auto views = renderViews(surface.mesh, smallCamera(), keyframes, {});
   ASSERT_TRUE(views);
   const auto none = makeTextureAtlas(
       {.mesh = &surface.mesh, .views = *views, .keyframes = keyframes}, {.max_size_px = 8}, Job{});
@@ -298,7 +298,7 @@ TEST(TextureAtlas, StopsWhenAsked) {
   const auto atlas = makeTextureAtlas({.mesh = &surface.mesh}, {}, Job{.stop = stop.get_token()});
   ASSERT_FALSE(atlas);
   EXPECT_EQ(atlas.error().code, ErrorCode::Cancelled);
-  const auto empty = makeTextureAtlas({}, {}, Job{});
+  const auto empty = makeTextureAtlas({}, {});
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().code, ErrorCode::SurfaceEmpty);
 }
