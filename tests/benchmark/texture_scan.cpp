@@ -101,8 +101,15 @@ TextureScan loadFoot(const std::filesystem::path& scan, const std::filesystem::p
   result.surface = surfaceOf(orExit(readPly(model / "model.ply")));
   const auto frames = orExit(openScanFolder(scan));
   result.camera = frames->camera();
+  std::vector<PictureQuality> pictures;
+  while (const auto frame = orExit(frames->next())) {
+    pictures.push_back(assessPicture(*frame));
+  }
+  const KeyframeOptions options{.target_count = kKeyframes, .most_count = kKeyframes};
+  const KeyframeChoice choice = orExit(
+      chooseKeyframes(pictures, trajectory, result.camera, result.surface.mesh, options, Job{}));
   result.keyframes =
-      orExit(chooseKeyframes(*frames, trajectory, {.target_count = kKeyframes}, Job{}));
+      orExit(readKeyframes(*orExit(openScanFolder(scan, {}, contentFor(choice))), choice, Job{}));
   const auto again = orExit(openScanFolder(scan));
   result.left_out = chooseLeftOut(*again, trajectory, result.keyframes);
   return result;
