@@ -1,6 +1,6 @@
 #include "reconstruction/fusion/block_update.h"
 
-#include "reconstruction/fusion/vector_code.h"
+#include "reconstruction/base/vector_code.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "reconstruction/fusion/depth_planes.h"
 
 #include "reconstruction/base/parallel.h"
-#include "reconstruction/fusion/vector_code.h"
+#include "reconstruction/base/vector_code.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,12 @@
 #include "reconstruction/texture/color_alignment.h"
 
 #include "reconstruction/base/parallel.h"
-#include "reconstruction/texture/picture_fit.h"
+#include "reconstruction/texture/lattice_step.h"
+#include "reconstruction/texture/patch_sums.h"
+#include "reconstruction/texture/reduced_image.h"
+#include "reconstruction/texture/sight_patches.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -11,118 +16,18 @@
 namespace tarsus {
 namespace {
 
-constexpr std::size_t kChunk = 8192;  // vertices a thread takes at once
-constexpr int kHalvings = 5;          // of a step before it is dropped
+constexpr int kHalvings = 5;  // of a step before it is dropped
+/// Lines of sight that tell the same: vertices lie closer than the smoothed pixels are wide.
+constexpr double kSightPerPixel = 6.0;
 
-/// One size of the pyramid: how small, and its share of the rigid iterations.
+/// One size of the pyramid: how small, its share of the rigid iterations, and how far from edges
+/// of the model a vertex must lie (SightLine::trust): other surfaces bleed into small images.
 struct Size {
   int factor;
   double share;
+  float least_trust;
 };
-constexpr std::array kSizes{Size{4, 0.4}, Size{2, 0.3}, Size{1, 0.3}};
-
-/// What the pictures say together, and how well they agree.
-class Agreement {
- public:
-  Agreement(std::span<const Eigen::Vector3f> vertices,
-            std::span<PictureFit> fits,
-            const ColorAlignmentOptions& options)
-      : vertices_(vertices),
-        fits_(fits),
-        huber_(static_cast<float>(options.huber_levels)),
-        wanted_(vertices.size(), 0.0F),
-        weights_(vertices.size(), 0.0F) {}
-
-  /// After the pictures changed size: where each chunk of vertices begins in each.
-  void useSight(std::size_t vertex_limit) {
-    chunks_ = (vertex_limit + kChunk - 1) / kChunk;
-    begin_.assign(fits_.size() * (chunks_ + 1), 0);
-    for (std::size_t k = 0; k < fits_.size(); ++k) {
-      const std::span<const SightLine> sight = fits_[k].sight();
-      for (std::size_t chunk = 0; chunk <= chunks_; ++chunk) {
-        const auto at = std::partition_point(sight.begin(), sight.end(), [&](const SightLine& s) {
-          return s.vertex < chunk * kChunk;
-        });
-        begin_[k * (chunks_ + 1) + chunk] = static_cast<std::size_t>(at - sight.begin());
-      }
-    }
-  }
-
-  /// Samples all pictures and takes their means.
-  /// @return robust sum of squares [grey levels^2]
-  double update() {
-    parallelFor(static_cast<int>(fits_.size()),
-                [&](int k) { fits_[static_cast<std::size_t>(k)].sample(vertices_); });
-    std::vector<double> energies(chunks_, 0.0);
-    parallelFor(static_cast<int>(chunks_), [&](int chunk) {
-      energies[static_cast<std::size_t>(chunk)] = average(static_cast<std::size_t>(chunk));
-    });
-    double energy = 0.0;
-    for (const double part : energies) {
-      energy += part;
-    }
-    return energy;
-  }
-
-  [[nodiscard]] std::span<const float> wanted() const { return wanted_; }
-
- private:
-  template <typename Use>
-  void eachSight(std::size_t chunk, const Use& use) const {
-    for (std::size_t k = 0; k < fits_.size(); ++k) {
-      const std::span<const SightLine> sight = fits_[k].sight();
-      const std::span<const float> values = fits_[k].values();
-      const std::size_t end = begin_[k * (chunks_ + 1) + chunk + 1];
-      for (std::size_t i = begin_[k * (chunks_ + 1) + chunk]; i < end; ++i) {
-        use(sight[i].vertex, sight[i].weight, values[i]);
-      }
-    }
-  }
-
-  /// Mean of each vertex, then once more with those far from it counting less.
-  double average(std::size_t chunk) {
-    const std::size_t first = chunk * kChunk;
-    const std::size_t count = std::min(kChunk, vertices_.size() - first);
-    const std::span<float> wanted = std::span(wanted_).subspan(first, count);
-    const std::span<float> weights = std::span(weights_).subspan(first, count);
-    std::vector<float> sums(count, 0.0F);
-    const auto divide = [&] {
-      for (std::size_t i = 0; i < count; ++i) {
-        wanted[i] = weights[i] > 0.0F ? sums[i] / weights[i] : 0.0F;
-      }
-    };
-    std::ranges::fill(weights, 0.0F);
-    eachSight(chunk, [&](std::size_t vertex, float weight, float value) {
-      sums[vertex - first] += weight * value;
-      weights[vertex - first] += weight;
-    });
-    divide();
-    std::ranges::fill(weights, 0.0F);
-    std::ranges::fill(sums, 0.0F);
-    eachSight(chunk, [&](std::size_t vertex, float weight, float value) {
-      const float size = std::abs(value - wanted[vertex - first]);
-      const float counted = size <= huber_ ? weight : weight * huber_ / size;
-      sums[vertex - first] += counted * value;
-      weights[vertex - first] += counted;
-    });
-    divide();
-    double energy = 0.0;
-    eachSight(chunk, [&](std::size_t vertex, float weight, float value) {
-      const float size = std::abs(value - wanted[vertex - first]);
-      const float loss = size <= huber_ ? size * size : huber_ * (2.0F * size - huber_);
-      energy += static_cast<double>(weight * loss);
-    });
-    return energy;
-  }
-
-  std::span<const Eigen::Vector3f> vertices_;
-  std::span<PictureFit> fits_;
-  float huber_;
-  std::size_t chunks_ = 0;
-  std::vector<std::size_t> begin_;  ///< of each picture's chunks, in its lines of sight
-  std::vector<float> wanted_;
-  std::vector<float> weights_;
-};
+constexpr std::array kSizes{Size{4, 0.4, 1.0F}, Size{2, 0.3, 0.7F}, Size{1, 0.3, 0.0F}};
 
 class Alignment {
  public:
@@ -132,10 +37,19 @@ class Alignment {
             const ColorAlignmentOptions& options,
             const Job& job)
       : vertices_(vertices),
+        camera_(camera),
+        pictures_(pictures),
         options_(options),
         job_(job),
-        fits_(makeFits(camera, pictures, options)),
-        agreement_(vertices, fits_, options) {}
+        order_(mortonOrder(vertices)),
+        images_(pictures.size()),
+        intensity_(pictures.size()),
+        rigid_steps_(pictures.size(), MotionVector::Zero()),
+        base_poses_(pictures.size()) {
+    for (AlignedPicture& picture : pictures_) {
+      picture.place.warp = ControlLattice();
+    }
+  }
 
   ColorAlignment run() {
     int left = options_.rigid_iterations;
@@ -143,100 +57,281 @@ class Alignment {
       const bool last = size.factor == 1;
       const int own = last ? left : static_cast<int>(size.share * options_.rigid_iterations);
       left -= own;
-      useSize(size.factor);
-      measureNoise();
-      AlignmentPhase& phase = last ? result_.rigid_full_size : result_.rigid_small_sizes;
-      iterate(own, phase, [this](PictureFit& fit) {
-        fit.planRigidStep(vertices_, agreement_.wanted(), variance_);
-      });
+      useSize(size);
+      iterate(own, last ? result_.rigid_full_size : result_.rigid_small_sizes);
     }
-    if (options_.lattice_iterations > 0 && total_weight_ > 0.0) {
-      measureNoise();
-      for (PictureFit& fit : fits_) {
-        fit.useLattice();
-      }
-      iterate(options_.lattice_iterations, result_.lattice, [this](PictureFit& fit) {
-        fit.planLatticeStep(vertices_, agreement_.wanted(), variance_);
-      });
+    if (options_.lattice_iterations > 0 && total_weight_ > 0.0 && !job_.stopped()) {
+      useLattices();
+      iterate(options_.lattice_iterations, result_.lattice);
     }
     return std::move(result_);
   }
 
  private:
-  static std::vector<PictureFit> makeFits(const Intrinsics& camera,
-                                          std::span<AlignedPicture> pictures,
-                                          const ColorAlignmentOptions& options) {
-    std::vector<PictureFit> fits;
-    fits.reserve(pictures.size());
-    for (AlignedPicture& picture : pictures) {
-      fits.emplace_back(picture, camera, options);
-    }
-    return fits;
-  }
+  [[nodiscard]] bool bending() const { return !lattices_.empty(); }
 
-  void useSize(int factor) {
-    const auto area = static_cast<std::size_t>(factor) * static_cast<std::size_t>(factor);
-    const std::size_t limit = (vertices_.size() + area - 1) / area;
-    parallelFor(static_cast<int>(fits_.size()),
-                [&](int k) { fits_[static_cast<std::size_t>(k)].useSize(factor, limit); });
-    agreement_.useSight(limit);
-    total_weight_ = 0.0;
-    observations_ = 0;
-    for (const PictureFit& fit : fits_) {
-      observations_ += fit.sight().size();
-      for (const SightLine& line : fit.sight()) {
-        total_weight_ += static_cast<double>(line.weight);
-      }
-    }
-    if (factor == 1) {
+  void useSize(const Size& size) {
+    small_ = reduced(camera_, size.factor);
+    parallelFor(static_cast<int>(pictures_.size()), [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      intensity_[i] = reduced(pictures_[i].intensity, size.factor);
+      images_[i].intensity = &intensity_[i];
+    });
+    const auto factor = static_cast<std::size_t>(size.factor);
+    usePatches({.thinning = factor * factor, .least_trust = size.least_trust, .cell_of = {}});
+    if (size.factor == 1) {
       result_.vertex_observations = observations_;
     }
   }
 
-  /// The priors count against the disagreement that there is when a phase begins.
-  void measureNoise() {
-    variance_ = total_weight_ > 0.0 ? agreement_.update() / total_weight_ : 0.0;
-  }
-
-  double energy() {
-    double sum = agreement_.update();
-    for (const PictureFit& fit : fits_) {
-      sum += fit.priorEnergy(variance_);
+  void useLattices() {
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      ControlLattice& warp = pictures_[i].place.warp;
+      warp = ControlLattice(camera_.width, camera_.height, options_.lattice_columns);
+      images_[i].warp = &warp;
+      lattices_.emplace_back(warp);
     }
-    return sum;
+    base_offsets_.resize(pictures_.size());
+    lattice_steps_.resize(pictures_.size());
+    usePatches({.cell_of = [this](std::size_t picture, const Eigen::Vector3f& p) {
+      const Eigen::Vector3d in_camera = pictures_[picture].place.color_from_scan * p.cast<double>();
+      const Eigen::Vector2f place = camera_.project(in_camera).cast<float>();
+      const ControlLattice::Cell cell = pictures_[picture].place.warp.cellAt(place);
+      return static_cast<std::uint32_t>(cell.node[0]);
+    }});
   }
 
+  void usePatches(const PatchChoice& choice) {
+    patches_ = makeSightPatches(vertices_, order_, pictures_, choice);
+    first_run_.assign(patches_.size() + 1, 0);
+    first_vertex_.assign(patches_.size() + 1, 0);
+    total_weight_ = 0.0;
+    observations_ = 0;
+    weights_.assign(pictures_.size(), 0.0);
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      first_run_[i + 1] = first_run_[i] + patches_[i].runs.size();
+      first_vertex_[i + 1] = first_vertex_[i] + patches_[i].x_mm.size();
+      for (const SightRun& run : patches_[i].runs) {
+        for (std::uint32_t b = run.first_block; b < run.first_block + run.blocks; ++b) {
+          for (const float weight : patches_[i].blocks[b].weight) {
+            weights_[run.picture] += static_cast<double>(weight);
+            observations_ += weight > 0.0F ? 1 : 0;
+          }
+        }
+      }
+    }
+    for (const double weight : weights_) {
+      total_weight_ += weight;
+    }
+    wanted_.assign(first_vertex_.back(), 0.0F);
+    centers_.clear();
+    rigid_sums_.resize(bending() ? 0 : first_run_.back());
+    cell_sums_.resize(bending() ? first_run_.back() : 0);
+  }
+
+  void placeImages() {
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      PlacedImage& image = images_[i];
+      const RigidTransform& pose = pictures_[i].place.color_from_scan;
+      for (int k = 0; k < 9; ++k) {
+        image.rotation[static_cast<std::size_t>(k)] =
+            static_cast<float>(pose.linear()(k / 3, k % 3));
+      }
+      const Eigen::Vector3d pivot = pivotOf(i);
+      for (int k = 0; k < 3; ++k) {
+        const auto j = static_cast<std::size_t>(k);
+        image.translation[j] = static_cast<float>(pose.translation()[k]);
+        image.pivot[j] = static_cast<float>(pivot[k]);
+      }
+      image.fx_px = static_cast<float>(small_.fx_px);
+      image.fy_px = static_cast<float>(small_.fy_px);
+      image.cx_px = static_cast<float>(small_.cx_px);
+      image.cy_px = static_cast<float>(small_.cy_px);
+    }
+  }
+
+  /// Rigid steps turn about what the picture looks at, so that turns and shifts hardly couple.
+  [[nodiscard]] Eigen::Vector3d pivotOf(std::size_t picture) const {
+    const AlignedPicture& own = pictures_[picture];
+    if (own.anchor) {
+      return own.anchor->center;
+    }
+    if (own.sight.empty()) {
+      return Eigen::Vector3d::Zero();
+    }
+    const SightLine& middle = own.sight[own.sight.size() / 2];
+    return own.place.color_from_scan * vertices_[middle.vertex].cast<double>();
+  }
+
+  /// Goes through all patches: what the pictures say together, and how each differs from it.
+  /// @return robust sum of squares [grey levels^2] with the priors
+  double evaluate() {
+    placeImages();
+    parallelFor(static_cast<int>(patches_.size()),
+                [this](int i) { evaluatePatch(static_cast<std::size_t>(i)); });
+    double energy = 0.0;
+    if (bending()) {
+      for (const CellSums& sums : cell_sums_) {
+        energy += static_cast<double>(sums.back());
+      }
+    } else {
+      for (const RigidSums& sums : rigid_sums_) {
+        energy += static_cast<double>(sums.back());
+      }
+    }
+    if (variance_ < 0.0) {  // a phase begins: its priors count against this disagreement
+      variance_ = total_weight_ > 0.0 ? energy / total_weight_ : 0.0;
+    }
+    for (std::size_t k = 0; k < pictures_.size(); ++k) {
+      energy += bending() ? priorEnergy(pictures_[k].place.warp, latticePrior()) : anchorEnergy(k);
+    }
+    return energy;
+  }
+
+  void evaluatePatch(std::size_t i) {
+    thread_local PatchSums sums;
+    sums.useHuber(static_cast<float>(options_.huber_levels));
+    const SightPatch& patch = patches_[i];
+    const std::size_t first = first_vertex_[i];
+    const std::size_t count = patch.x_mm.size();
+    const std::span<float> wanted = std::span(wanted_).subspan(first, count);
+    const std::span<const float> centers =
+        centers_.empty() ? std::span<const float>() : std::span(centers_).subspan(first, count);
+    const std::size_t runs = patch.runs.size();
+    sums.sample(patch, images_);
+    sums.average(patch, centers, wanted);
+    if (bending()) {
+      sums.sumCells(patch, wanted, std::span(cell_sums_).subspan(first_run_[i], runs));
+    } else {
+      sums.sumRigid(patch, images_, wanted, std::span(rigid_sums_).subspan(first_run_[i], runs));
+    }
+  }
+
+  // --- rigid steps
+
+  [[nodiscard]] double anchorWeight(std::size_t picture) const {
+    return weights_[picture] * variance_ / (options_.anchor_mm * options_.anchor_mm);
+  }
+
+  [[nodiscard]] double anchorEnergy(std::size_t picture) const {
+    const AlignedPicture& own = pictures_[picture];
+    if (!own.anchor) {
+      return 0.0;
+    }
+    const MotionVector away =
+        motionBetween(own.place.color_from_scan, own.anchor->color_from_scan, own.anchor->center);
+    return anchorWeight(picture) * away.dot(own.anchor->stiffness * away);
+  }
+
+  struct RigidEquations {
+    MotionMatrix normal = MotionMatrix::Zero();
+    MotionVector right = MotionVector::Zero();
+  };
+
+  [[nodiscard]] std::vector<RigidEquations> rigidEquations() const {
+    std::vector<RigidEquations> all(pictures_.size());
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      for (std::size_t r = 0; r < patches_[i].runs.size(); ++r) {
+        const RigidSums& sums = rigid_sums_[first_run_[i] + r];
+        RigidEquations& own = all[patches_[i].runs[r].picture];
+        std::size_t index = 0;
+        for (Eigen::Index j = 0; j < 6; ++j) {
+          for (Eigen::Index k = 0; k <= j; ++k, ++index) {
+            own.normal(j, k) += static_cast<double>(sums[index]);
+          }
+          own.right[j] += static_cast<double>(sums[21 + static_cast<std::size_t>(j)]);
+        }
+      }
+    }
+    return all;
+  }
+
+  void planRigidSteps() {
+    const std::vector<RigidEquations> all = rigidEquations();
+    for (std::size_t k = 0; k < pictures_.size(); ++k) {
+      base_poses_[k] = pictures_[k].place.color_from_scan;
+      pivots_.resize(pictures_.size());
+      pivots_[k] = pivotOf(k);
+      MotionMatrix normal = all[k].normal.selfadjointView<Eigen::Lower>();
+      MotionVector right = all[k].right;
+      if (const auto& anchor = pictures_[k].anchor) {
+        const MotionMatrix stiffness = anchorWeight(k) * anchor->stiffness;
+        normal += stiffness;
+        right += stiffness * motionBetween(base_poses_[k], anchor->color_from_scan, anchor->center);
+      }
+      normal += 1e-6 * normal.trace() * MotionMatrix::Identity();
+      const MotionVector step = normal.ldlt().solve(right);
+      rigid_steps_[k] = step.allFinite() ? step : MotionVector::Zero();
+    }
+  }
+
+  // --- steps of the lattices
+
+  [[nodiscard]] LatticePrior latticePrior() const {
+    const double unit = kSightPerPixel * variance_;
+    return {.offset = unit / (options_.lattice_offset_px * options_.lattice_offset_px),
+            .bend = unit / (options_.lattice_bend_px * options_.lattice_bend_px)};
+  }
+
+  void planLatticeSteps() {
+    using Cells = std::vector<std::array<double, kCellSums>>;
+    std::vector<Cells> cells(pictures_.size(), Cells(pictures_[0].place.warp.offsets_px().size()));
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      for (std::size_t r = 0; r < patches_[i].runs.size(); ++r) {
+        const SightRun& run = patches_[i].runs[r];
+        const CellSums& sums = cell_sums_[first_run_[i] + r];
+        std::array<double, kCellSums>& own = cells[run.picture][run.cell];
+        for (std::size_t j = 0; j < kCellSums; ++j) {
+          own[j] += static_cast<double>(sums[j]);
+        }
+      }
+    }
+    parallelFor(static_cast<int>(pictures_.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      base_offsets_[k] = pictures_[k].place.warp.offsets_px();
+      lattice_steps_[k] = lattices_[k].solve(cells[k], base_offsets_[k], latticePrior());
+    });
+  }
+
+  // --- both
+
+  void plan() { bending() ? planLatticeSteps() : planRigidSteps(); }
+
+  /// Goes to the place before the planned step, plus so much of that step.
   void moveAll(double share) {
-    for (PictureFit& fit : fits_) {
-      fit.move(share);
+    for (std::size_t k = 0; k < pictures_.size(); ++k) {
+      PicturePlacement& place = pictures_[k].place;
+      if (!bending()) {
+        place.color_from_scan = motionOf(share * rigid_steps_[k], pivots_[k]) * base_poses_[k];
+        continue;
+      }
+      for (std::size_t i = 0; i < base_offsets_[k].size(); ++i) {
+        place.warp.offsets_px()[i] =
+            base_offsets_[k][i] + static_cast<float>(share) * lattice_steps_[k][i];
+      }
     }
   }
 
-  template <typename Plan>
-  void iterate(int iterations, AlignmentPhase& phase, const Plan& plan) {
+  void iterate(int iterations, AlignmentPhase& phase) {
     if (iterations <= 0 || !(total_weight_ > 0.0)) {
       return;
     }
     const auto start = std::chrono::steady_clock::now();
     const bool full_size = &phase != &result_.rigid_small_sizes;
-    double current = energy();
-    const auto note = [&] {
-      if (full_size) {
-        result_.rmse.push_back(std::sqrt(current / total_weight_));
-      }
-    };
-    if (result_.rmse.empty()) {
-      note();
+    variance_ = -1.0;
+    double current = evaluate();
+    if (full_size && result_.rmse.empty()) {
+      result_.rmse.push_back(std::sqrt(current / total_weight_));
     }
     for (int done = 0; done < iterations && !job_.stopped(); ++done) {
       report();
-      parallelFor(static_cast<int>(fits_.size()),
-                  [&](int k) { plan(fits_[static_cast<std::size_t>(k)]); });
       const double next = step(current);
       const bool slow = current - next < options_.least_relative_drop * current;
       current = next;
-      note();
       ++phase.iterations;
+      if (full_size) {
+        result_.rmse.push_back(std::sqrt(current / total_weight_));
+      }
       if (slow) {
         break;
       }
@@ -247,16 +342,18 @@ class Alignment {
 
   /// Takes as much of the planned step as makes the whole better.
   double step(double current) {
+    centers_ = wanted_;
+    plan();
     double share = 1.0;
     for (int i = 0; i < kHalvings; ++i, share *= 0.5) {
       moveAll(share);
-      const double next = energy();
+      const double next = evaluate();
       if (next <= current) {
         return next;
       }
     }
     moveAll(0.0);
-    return energy();
+    return std::min(current, evaluate());
   }
 
   void report() {
@@ -266,15 +363,37 @@ class Alignment {
   }
 
   std::span<const Eigen::Vector3f> vertices_;
+  const Intrinsics camera_;
+  std::span<AlignedPicture> pictures_;
   const ColorAlignmentOptions& options_;
   const Job& job_;
-  std::vector<PictureFit> fits_;
-  Agreement agreement_;
   ColorAlignment result_;
-  double total_weight_ = 0.0;
-  double variance_ = 0.0;
-  std::size_t observations_ = 0;
   int iterations_done_ = 0;
+
+  // of the size in work
+  std::vector<std::uint32_t> order_;
+  Intrinsics small_;
+  std::vector<PlacedImage> images_;
+  std::vector<Image<float>> intensity_;
+  std::vector<SightPatch> patches_;
+  std::vector<std::size_t> first_run_;     ///< of each patch, in the sums
+  std::vector<std::size_t> first_vertex_;  ///< of each patch, in the grey levels
+  std::vector<double> weights_;            ///< of each picture's lines of sight
+  double total_weight_ = 0.0;
+  double variance_ = 0.0;  ///< mean robust square when the phase began [grey levels^2]
+  std::size_t observations_ = 0;
+
+  // of the last evaluation and the last plan
+  std::vector<float> wanted_;
+  std::vector<float> centers_;
+  std::vector<RigidSums> rigid_sums_;
+  std::vector<CellSums> cell_sums_;
+  std::vector<MotionVector> rigid_steps_;
+  std::vector<RigidTransform> base_poses_;
+  std::vector<Eigen::Vector3d> pivots_;
+  std::vector<LatticeStep> lattices_;
+  std::vector<std::vector<Eigen::Vector2f>> base_offsets_;
+  std::vector<std::vector<Eigen::Vector2f>> lattice_steps_;
 };
 
 }  // namespace
@@ -284,6 +403,9 @@ ColorAlignment alignPictures(std::span<const Eigen::Vector3f> vertices,
                              std::span<AlignedPicture> pictures,
                              const ColorAlignmentOptions& options,
                              const Job& job) {
+  if (pictures.empty() || vertices.empty()) {
+    return {};
+  }
   return Alignment(vertices, camera, pictures, options, job).run();
 }
 

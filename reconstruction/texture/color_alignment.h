@@ -73,8 +73,8 @@ struct ColorAlignment {
 /// whole worse is halved, then dropped.
 /// Source: Zhou and Koltun 2014; image gradients are true slopes per pixel, all images of one
 /// smoothness.
-/// @param vertices  scan frame [mm]; the first ones must cover the surface evenly: small images
-///                  use these alone
+/// @param vertices  scan frame [mm]
+/// @param pictures  their warps begin anew
 /// @return  when stopped, pictures are as good as the iterations done made them
 [[nodiscard]] ColorAlignment alignPictures(std::span<const Eigen::Vector3f> vertices,
                                            const Intrinsics& camera,

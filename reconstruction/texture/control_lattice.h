@@ -32,6 +32,7 @@ class ControlLattice {
   [[nodiscard]] bool empty() const { return offsets_px_.empty(); }
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] float cellsPerPx() const { return per_px_; }
   [[nodiscard]] std::vector<Eigen::Vector2f>& offsets_px() { return offsets_px_; }
   [[nodiscard]] const std::vector<Eigen::Vector2f>& offsets_px() const { return offsets_px_; }
 
