@@ -29,9 +29,9 @@ inline constexpr float kClippedWeight = 0.05F;  ///< such pixels are used where 
                                     int best_views);
 
 /// Makes blended colours sharp: changes them until the model, drawn in each keyframe's camera,
-/// shows what the keyframe shows. Each sweep spreads what a pixel misses over the corners of the
-/// face it falls on (simultaneous back-projection: Irani and Peleg, CVGIP 53(3), 1991; fine detail
-/// comes last, so that few sweeps keep noise out).
+/// shows what the keyframes show. Each sweep spreads what each pixel misses over the corners of the
+/// face it falls on, with the pixel's weight (simultaneous back-projection: Irani and Peleg, CVGIP
+/// 53(3), 1991). Fine detail comes last, so that few sweeps keep noise out.
 /// @param colors  blended; unseen vertices stay as they are
 void fitColors(const TriangleMesh& mesh,
                std::span<const KeyframeView> views,

@@ -52,7 +52,6 @@ class ColorFit {
   void run() {
     parallelFor(static_cast<int>(views_.size()),
                 [this](int k) { readPixels(static_cast<std::size_t>(k)); });
-    preferBestViews();
     mistrustOddColors();
     sumWeights();
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
@@ -118,30 +117,6 @@ class ColorFit {
       for (PixelEquation& equation : equations_[static_cast<std::size_t>(k)]) {
         use(equation);
       }
-    });
-  }
-
-  void preferBestViews() {
-    std::vector<std::vector<float>> best(kParts, std::vector<float>(mesh_.vertices.size(), 0.0F));
-    eachPart([&](std::size_t part, const PixelEquation& equation) {
-      for (const std::uint32_t vertex : equation.vertex) {
-        best[part][vertex] = std::max(best[part][vertex], equation.weight);
-      }
-    });
-    parallelChunks(mesh_.vertices.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        for (std::size_t part = 1; part < kParts; ++part) {
-          best[0][i] = std::max(best[0][i], best[part][i]);
-        }
-      }
-    });
-    const auto least = static_cast<float>(options_.least_relative_weight);
-    const auto full = static_cast<float>(options_.full_relative_weight);
-    eachView([&](PixelEquation& equation) {
-      const float most = std::max(
-          {best[0][equation.vertex[0]], best[0][equation.vertex[1]], best[0][equation.vertex[2]]});
-      const float relative = equation.weight / most;
-      equation.weight = relative * std::clamp((relative - least) / (full - least), 0.0F, 1.0F);
     });
   }
 
