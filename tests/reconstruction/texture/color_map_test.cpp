@@ -1,5 +1,6 @@
 #include "reconstruction/texture/color_map.h"
 
+#include "reconstruction/texture/keyframe_view.h"
 #include "tests/reconstruction/texture/textured_scene.h"
 
 #include <gtest/gtest.h>
