@@ -60,15 +60,6 @@ double even(std::uint32_t counter) {
   return (static_cast<double>(x ^ (x >> 16U)) + 0.5) * 0x1.0p-32;
 }
 
-/// Nearly normal, standard deviation 1.
-double noise(std::uint32_t counter) {
-  double sum = 0.0;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    sum += even(4 * counter + k) - 0.5;
-  }
-  return sum * std::sqrt(3.0);
-}
-
 /// The motion number i: by so much in all directions, about the middle of the scene.
 RigidTransform motionOff(int i) {
   const auto direction = [](double phase) {
@@ -130,7 +121,7 @@ TEST(DepthAnchor, StaysWithinWhatNoiseGives) {
     int measured = 0;
     for (std::uint32_t i = 0; i < noisy.pixels().size(); ++i) {
       if (noisy.pixels()[i] > 0.0F) {
-        noisy.pixels()[i] += static_cast<float>(kNoise_mm * noise(seed * 1'000'003U + i));
+        noisy.pixels()[i] += static_cast<float>(kNoise_mm * seededNoise(seed * 1'000'003U + i));
         ++measured;
       }
     }

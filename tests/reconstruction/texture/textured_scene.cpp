@@ -1,6 +1,7 @@
 #include "tests/reconstruction/texture/textured_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -38,13 +39,13 @@ Hit castInto(const TexturedScene& scene,
   const Eigen::Vector3d p = origin + t * ray;
   if (t > 0.0 && std::abs(p.x()) <= scene.half_size_mm && std::abs(p.y()) <= scene.half_size_mm) {
     nearest = t;
-    hit = {.depth = t, .color = scene.planeColor(p.x(), p.y())};
+    hit = {.depth = t, .color = scene.solid ? solidColor(p) : scene.planeColor(p.x(), p.y())};
   }
   for (const SceneBall& ball : scene.balls) {
     const std::optional<double> s = hitBall(ball, origin, ray);
     if (s && *s < nearest) {
       nearest = *s;
-      hit = {.depth = *s, .color = ball.color};
+      hit = {.depth = *s, .color = scene.solid ? solidColor(origin + *s * ray) : ball.color};
     }
   }
   return hit;
@@ -58,20 +59,11 @@ std::uint64_t hash(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// Nearly normal, standard deviation 1: sum of four even ones.
-double noise(std::uint64_t seed) {
-  double sum = 0.0;
-  for (std::uint64_t k = 0; k < 4; ++k) {
-    sum += static_cast<double>(hash(seed * 4 + k) >> 11U) * 0x1.0p-53 - 0.5;
-  }
-  return sum * std::sqrt(3.0);
-}
-
 Rgb8 expose(const Eigen::Vector3d& color, const Exposure& exposure, std::uint64_t pixel) {
   Eigen::Vector3d levels = color.cwiseProduct(exposure.gain);
   for (int c = 0; c < 3; ++c) {
     const auto counter = pixel * 3 + static_cast<std::uint64_t>(c);
-    levels[c] += exposure.noise_levels * noise(hash(exposure.seed) + counter);
+    levels[c] += exposure.noise_levels * seededNoise(hash(exposure.seed) + counter);
     levels[c] = std::clamp(std::round(levels[c]), 0.0, 255.0);
   }
   const auto level = [&](int c) { return static_cast<std::uint8_t>(levels[c]); };
@@ -79,6 +71,35 @@ Rgb8 expose(const Eigen::Vector3d& color, const Exposure& exposure, std::uint64_
 }
 
 }  // namespace
+
+double seededNoise(std::uint64_t seed) {
+  double sum = 0.0;  // of four even ones
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    sum += static_cast<double>(hash(seed * 4 + k) >> 11U) * 0x1.0p-53 - 0.5;
+  }
+  return sum * std::sqrt(3.0);
+}
+
+Eigen::Vector3d solidColor(const Eigen::Vector3d& p_mm) {
+  struct Wave {
+    double length_mm, levels, x, y, z;
+  };
+  constexpr std::array kWaves{Wave{61.0, 16.0, 1.0, 0.3, 0.2},
+                              Wave{43.0, 14.0, -0.4, 1.0, -0.3},
+                              Wave{29.0, 12.0, 0.7, 0.8, 0.6},
+                              Wave{19.0, 10.0, 1.0, -0.7, -0.5},
+                              Wave{13.0, 8.0, 0.2, 1.0, 0.8},
+                              Wave{10.0, 6.0, 1.0, 0.1, -0.6}};
+  double level = 0.0;
+  double phase = 0.0;
+  for (const Wave& wave : kWaves) {
+    const Eigen::Vector3d direction = Eigen::Vector3d(wave.x, wave.y, wave.z).normalized();
+    phase += 1.3;
+    level += wave.levels *
+             std::sin(2.0 * std::numbers::pi / wave.length_mm * direction.dot(p_mm) + phase);
+  }
+  return Eigen::Vector3d(110.0, 120.0, 130.0) + level * Eigen::Vector3d(0.9, 1.0, 0.8);
+}
 
 Eigen::Vector3d TexturedScene::planeColor(double x_mm, double y_mm) const {
   const double k = 2.0 * std::numbers::pi / period_mm;

@@ -20,11 +20,16 @@ struct TexturedScene {
   double half_size_mm = 60.0;
   double period_mm = 10.0;  ///< of the texture's finest wave
   std::vector<SceneBall> balls;
+  bool solid = false;  ///< plane and balls are carved from one block: solidColor, not their own
   Eigen::Vector3d background{90.0, 90.0, 90.0};
 
   /// Colour of the plane [grey levels]; red stays below 110.
   [[nodiscard]] Eigen::Vector3d planeColor(double x_mm, double y_mm) const;
 };
+
+/// A texture in space that repeats nowhere near: waves of 10 to 60 mm in all directions
+/// [grey levels, 40 to 200].
+[[nodiscard]] Eigen::Vector3d solidColor(const Eigen::Vector3d& p_mm);
 
 /// Picture taking: what a real camera adds.
 struct Exposure {
@@ -43,6 +48,8 @@ struct Exposure {
                                   const RgbdCamera& camera,
                                   const RigidTransform& scan_from_camera,
                                   const Exposure& exposure = {});
+/// Nearly normal, standard deviation 1, the same for the same seed on every machine.
+[[nodiscard]] double seededNoise(std::uint64_t seed);
 /// `count` keyframes on a ring around the z axis, 300 mm from the origin, 20 degrees from above.
 [[nodiscard]] std::vector<Keyframe> ringOfKeyframes(const TexturedScene& scene,
                                                     const RgbdCamera& camera,

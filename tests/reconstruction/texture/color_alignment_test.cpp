@@ -1,0 +1,599 @@
+#include "reconstruction/texture/color_alignment.h"
+
+#include "reconstruction/base/parallel.h"
+#include "reconstruction/texture/color_sampling.h"
+#include "tests/reconstruction/texture/textured_scene.h"
+
+#include <Eigen/LU>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numbers>
+
+namespace tarsus {
+namespace {
+
+/// A ball so large that it fills the height of the pictures, its top at the origin.
+constexpr double kRadius_mm = 150.0;
+constexpr double kMinCosine = 0.34;  // 70 degrees
+constexpr int kPictures = 6;
+constexpr double kTurn_rad = 0.5 * std::numbers::pi / 180.0;
+
+const Intrinsics& pinhole() {
+  static const Intrinsics kPinhole = smallCamera().color;
+  return kPinhole;
+}
+
+Eigen::Vector3d ballCenter() { return {0, 0, -kRadius_mm}; }
+Eigen::Vector3d normalAt(const Eigen::Vector3d& p) { return (p - ballCenter()) / kRadius_mm; }
+
+/// Vertices of the ball's cap; the first so many cover it evenly, however many they are (Roberts'
+/// R2 sequence).
+std::vector<Eigen::Vector3f> capVertices(int count) {
+  std::vector<Eigen::Vector3f> vertices;
+  constexpr double kPlastic = 1.32471795724474602596;
+  const double lowest = std::cos(35.0 * std::numbers::pi / 180.0);
+  for (int i = 1; i <= count; ++i) {
+    const double a = i / kPlastic;
+    const double b = i / (kPlastic * kPlastic);
+    const double z = 1.0 - (1.0 - lowest) * (a - std::floor(a));
+    const double turn = 2.0 * std::numbers::pi * b;
+    const double across = std::sqrt(1.0 - z * z);
+    const Eigen::Vector3d n(across * std::cos(turn), across * std::sin(turn), z);
+    vertices.emplace_back((ballCenter() + kRadius_mm * n).cast<float>());
+  }
+  return vertices;
+}
+
+/// Where a pinhole camera sees what the picture shows at a place.
+using Unbend = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
+
+double bendAt(double v) { return 1.5 * std::cos(2.0 * std::numbers::pi * v / 240.0); }
+Eigen::Vector2d unbent(const Eigen::Vector2d& place) {
+  return {place.x() - bendAt(place.y()), place.y()};
+}
+
+/// The ball as a camera sees it, one ray a pixel: the texture is smooth.
+Image<float> takePicture(const RigidTransform& color_from_scan,
+                         double noise_levels,
+                         std::uint64_t seed,
+                         const Unbend& unbend = {}) {
+  const RigidTransform scan_from_color = color_from_scan.inverse();
+  const Eigen::Vector3d origin = scan_from_color.translation();
+  Image<float> picture(pinhole().width, pinhole().height);
+  for (int v = 0; v < picture.height(); ++v) {
+    for (int u = 0; u < picture.width(); ++u) {
+      const Eigen::Vector2d place = unbend ? unbend({u, v}) : Eigen::Vector2d(u, v);
+      const Eigen::Vector3d ray =
+          (scan_from_color.linear() * pinhole().ray(place.x(), place.y())).normalized();
+      const double along = -ray.dot(origin - ballCenter());
+      const double root =
+          along * along - (origin - ballCenter()).squaredNorm() + kRadius_mm * kRadius_mm;
+      double level = 90.0;
+      if (root > 0.0) {
+        const Eigen::Vector3d p = origin + (along - std::sqrt(root)) * ray;
+        level = static_cast<double>(intensityOf(solidColor(p).cast<float>()));
+      }
+      const auto pixel = static_cast<std::uint64_t>(v * picture.width() + u);
+      level += noise_levels * seededNoise(seed * 100'000 + pixel);
+      picture.at(u, v) = static_cast<float>(level);
+    }
+  }
+  return picture;
+}
+
+/// Pictures in a ring around the ball's top, 300 mm away and 20 degrees from above; each third one
+/// nearer.
+RigidTransform truePose(int k) {
+  const double turn = 2.0 * std::numbers::pi * k / kPictures;
+  const double scale = k % 3 == 0 ? 0.9 : 1.0;
+  return lookAt({scale * 103.0 * std::cos(turn), scale * 103.0 * std::sin(turn), scale * 282.0},
+                {0, 0, 0})
+      .inverse();
+}
+
+/// Off by 2 mm and half a degree about the ball's top, each picture elsewhere.
+RigidTransform wrongPose(int k) {
+  const auto direction = [](double phase) {
+    return Eigen::Vector3d(std::sin(phase), std::cos(1.7 * phase), std::sin(2.3 * phase + 1.0))
+        .normalized();
+  };
+  MotionVector off;
+  off << kMotionLever_mm * kTurn_rad * direction(1.9 * k + 0.3), 2.0 * direction(2.9 * k);
+  return motionOf(off, truePose(k).translation()) * truePose(k);
+}
+
+struct BallPictures {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<AlignedPicture> pictures;
+};
+
+/// How far from the ball's outline, in shares of what edges need: 1 from some 15 px on.
+float trustAt(double cosine) {
+  return static_cast<float>(std::clamp((cosine - kMinCosine) / 0.25, 0.02, 1.0));
+}
+
+void lookFromTruePoses(BallPictures& setup) {
+  for (std::size_t i = 0; i < setup.vertices.size(); ++i) {
+    std::vector<std::pair<std::size_t, SightLine>> lines;
+    const Eigen::Vector3d p = setup.vertices[i].cast<double>();
+    for (std::size_t k = 0; k < setup.pictures.size(); ++k) {
+      const RigidTransform pose = truePose(static_cast<int>(k));
+      const Eigen::Vector3d in_color = pose * p;
+      const double cosine = -(pose.linear() * normalAt(p)).dot(in_color.normalized());
+      const Eigen::Vector2d place = pinhole().project(in_color);
+      if (cosine > kMinCosine && place.minCoeff() > 8.0 && place.x() < 311.0 && place.y() < 231.0) {
+        const double weight = cosine * cosine / in_color.squaredNorm() * 1e5;
+        lines.push_back({k,
+                         {.vertex = static_cast<std::uint32_t>(i),
+                          .weight = static_cast<float>(weight),
+                          .trust = trustAt(cosine)}});
+      }
+    }
+    for (const auto& [k, line] : lines) {
+      if (lines.size() > 1) {
+        setup.pictures[k].sight.push_back(line);
+      }
+    }
+  }
+}
+
+/// The pictures, taken from the true poses and placed there.
+const BallPictures& wellPlaced() {
+  static const BallPictures kSetup = [] {
+    BallPictures setup{.vertices = capVertices(30'000),
+                       .pictures = std::vector<AlignedPicture>(kPictures)};
+    for (int k = 0; k < kPictures; ++k) {
+      AlignedPicture& picture = setup.pictures[static_cast<std::size_t>(k)];
+      picture.intensity = takePicture(truePose(k), 2.0, static_cast<std::uint64_t>(k));
+      picture.place.color_from_scan = truePose(k);
+    }
+    lookFromTruePoses(setup);
+    return setup;
+  }();
+  return kSetup;
+}
+
+BallPictures wronglyPlaced() {
+  BallPictures setup = wellPlaced();
+  for (int k = 0; k < kPictures; ++k) {
+    setup.pictures[static_cast<std::size_t>(k)].place.color_from_scan = wrongPose(k);
+  }
+  return setup;
+}
+
+ColorAlignment align(BallPictures& setup,
+                     const ColorAlignmentOptions& options = {},
+                     const Job& job = {}) {
+  return alignPictures(setup.vertices, pinhole(), setup.pictures, options, job);
+}
+
+ColorAlignmentOptions posesAlone() { return {.lattice_iterations = 0}; }
+
+/// How one vertex's true place in a picture differs from the found one.
+struct Miss {
+  std::size_t picture;
+  Eigen::Vector2d off_px;
+  Eigen::Matrix2d px_per_mm;  ///< from the surface's tangents
+};
+
+Miss missOf(const BallPictures& setup,
+            std::size_t k,
+            const Eigen::Vector3d& p,
+            const Unbend& unbend) {
+  const RigidTransform pose = truePose(static_cast<int>(k));
+  const PicturePlacement& place = setup.pictures[k].place;
+  const Eigen::Vector2d found =
+      place.warp.warped(pinhole().project(place.color_from_scan * p).cast<float>()).cast<double>();
+  const Eigen::Vector3d normal = normalAt(p);
+  const Eigen::Vector3d a = normal.cross(Eigen::Vector3d::UnitY()).normalized();
+  const Eigen::Vector3d b = normal.cross(a);
+  const auto project = [&](const Eigen::Vector3d& q) { return pinhole().project(pose * q); };
+  Miss miss{.picture = k,
+            .off_px = (unbend ? unbend(found) : found) - project(p),
+            .px_per_mm = Eigen::Matrix2d::Zero()};
+  miss.px_per_mm.col(0) = (project(p + 0.01 * a) - project(p - 0.01 * a)) / 0.02;
+  miss.px_per_mm.col(1) = (project(p + 0.01 * b) - project(p - 0.01 * b)) / 0.02;
+  return miss;
+}
+
+/// How far each picture lies from all [px RMS]. A slip of all pictures together over the surface is
+/// no error that colours could tell, so each vertex's mean slip is taken off.
+/// @param odd      a picture that does not count in the means, or -1
+/// @param unbends  of the pictures; empty: pinholes
+std::vector<double> relativeErrors(const BallPictures& setup,
+                                   int odd = -1,
+                                   const std::vector<Unbend>& unbends = {}) {
+  std::vector<std::vector<Miss>> misses(setup.vertices.size());
+  for (std::size_t k = 0; k < setup.pictures.size(); ++k) {
+    for (const SightLine& line : setup.pictures[k].sight) {
+      if (line.vertex % 3 == 0) {
+        misses[line.vertex].push_back(missOf(setup,
+                                             k,
+                                             setup.vertices[line.vertex].cast<double>(),
+                                             unbends.empty() ? Unbend() : unbends[k]));
+      }
+    }
+  }
+  std::vector<double> sums(setup.pictures.size(), 0.0);
+  std::vector<double> counts(setup.pictures.size(), 0.0);
+  for (const std::vector<Miss>& vertex : misses) {
+    Eigen::Vector2d slip_mm = Eigen::Vector2d::Zero();
+    double count = 0.0;
+    for (const Miss& miss : vertex) {
+      if (static_cast<int>(miss.picture) != odd) {
+        slip_mm += miss.px_per_mm.inverse() * miss.off_px;
+        count += 1.0;
+      }
+    }
+    for (const Miss& miss : vertex) {
+      if (count >= 2.0) {
+        sums[miss.picture] += (miss.off_px - miss.px_per_mm * (slip_mm / count)).squaredNorm();
+        counts[miss.picture] += 1.0;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    sums[k] = std::sqrt(sums[k] / std::max(counts[k], 1.0));
+  }
+  return sums;
+}
+
+double greatest(const std::vector<double>& values, int except = -1) {
+  double result = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    result = static_cast<int>(k) == except ? result : std::max(result, values[k]);
+  }
+  return result;
+}
+
+void expectNeverUp(const std::vector<double>& rmse) {
+  for (std::size_t i = 1; i < rmse.size(); ++i) {
+    // A hundred-thousandth for sums in another order.
+    EXPECT_LE(rmse[i], rmse[i - 1] * 1.00001) << "entry " << i << " of " << rmse.size();
+  }
+}
+
+void expectValid(const PicturePlacement& place) {
+  const Eigen::Matrix3d turn = place.color_from_scan.linear();
+  EXPECT_TRUE(place.color_from_scan.matrix().allFinite());
+  EXPECT_LT((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+  EXPECT_GT(turn.determinant(), 0.0);
+  for (const Eigen::Vector2f& offset : place.warp.offsets_px()) {
+    EXPECT_TRUE(offset.allFinite());
+  }
+}
+
+/// How far what a picture shows has moved in it [px RMS].
+double movedBy(const BallPictures& setup, std::size_t k, const RigidTransform& before) {
+  double sum = 0.0;
+  for (const SightLine& line : setup.pictures[k].sight) {
+    const Eigen::Vector3d p = setup.vertices[line.vertex].cast<double>();
+    const PicturePlacement& place = setup.pictures[k].place;
+    const Eigen::Vector2f now =
+        place.warp.warped(pinhole().project(place.color_from_scan * p).cast<float>());
+    sum += (now.cast<double>() - pinhole().project(before * p)).squaredNorm();
+  }
+  return std::sqrt(sum /
+                   static_cast<double>(std::max<std::size_t>(1, setup.pictures[k].sight.size())));
+}
+
+TEST(AlignPictures, BringsWrongPosesTogether) {
+  BallPictures setup = wronglyPlaced();
+  const double before_px = greatest(relativeErrors(setup));
+  EXPECT_GT(before_px, 1.5);
+  const ColorAlignment wrong = align(setup, posesAlone());
+  BallPictures truth = wellPlaced();
+  const ColorAlignment right = align(truth, posesAlone());
+  const double after_px = greatest(relativeErrors(setup));
+  std::printf("wrong poses: %.2f px to %.3f px, RMSE to %.3f levels, from true poses %.3f\n",
+              before_px,
+              after_px,
+              wrong.rmse.back(),
+              right.rmse.back());
+  EXPECT_LT(after_px, 0.1);
+  ASSERT_FALSE(wrong.rmse.empty());
+  ASSERT_FALSE(right.rmse.empty());
+  // What is left is the noise of the pictures, as from the true poses.
+  EXPECT_LT(wrong.rmse.back(), 1.03 * right.rmse.back());
+  expectNeverUp(wrong.rmse);
+  expectNeverUp(right.rmse);
+  EXPECT_LT(greatest(relativeErrors(truth)), 0.1);
+}
+
+TEST(AlignPictures, TakesThePhotometricErrorDownToTheNoise) {
+  // One iteration at full size alone: the first entry is the error of the poses as given.
+  BallPictures unmoved = wronglyPlaced();
+  const ColorAlignment first = align(unmoved, {.rigid_iterations = 1, .lattice_iterations = 0});
+  BallPictures setup = wronglyPlaced();
+  const ColorAlignment all = align(setup, posesAlone());
+  ASSERT_FALSE(first.rmse.empty());
+  std::printf("RMSE %.2f levels as given, %.3f in the end\n", first.rmse.front(), all.rmse.back());
+  // Waves of 6 to 16 levels are out of step by 1 to 3 px of their 10 to 61 px: several levels.
+  // Noise of 2 levels leaves the smoothing kernel (1 2 1) / 4 with 3/8 of it, 0.75, and the
+  // vertices' means of six take a sixth of its square with them: 0.68 levels.
+  EXPECT_GT(first.rmse.front(), 3.0);
+  EXPECT_LT(all.rmse.back(), 0.9);
+  EXPECT_LT(all.rmse.back(), first.rmse.front() / 4.0);
+}
+
+TEST(AlignPictures, StraightensABentPicture) {
+  const auto bent = [] {
+    BallPictures setup = wellPlaced();
+    setup.pictures[2].intensity = takePicture(truePose(2), 2.0, 2, unbent);
+    return setup;
+  };
+  std::vector<Unbend> unbends(kPictures);
+  unbends[2] = unbent;
+  BallPictures rigid = bent();
+  align(rigid, posesAlone());
+  BallPictures setup = bent();
+  const ColorAlignment alignment = align(setup);
+  const std::vector<double> rigid_px = relativeErrors(rigid, 2, unbends);
+  const std::vector<double> lattice_px = relativeErrors(setup, 2, unbends);
+  std::printf("a bend of 1.5 px: %.3f px left by poses, %.3f px by the lattice\n",
+              rigid_px[2],
+              lattice_px[2]);
+  // The ball fills two thirds of the picture's height: there the cosine is nearly a parabola of
+  // 0.9 px RMS, of which a pose can take no more than the tilt of a curved surface gives.
+  EXPECT_GT(rigid_px[2], 0.45);
+  EXPECT_LT(lattice_px[2], 0.3);
+  EXPECT_LT(greatest(lattice_px, 2), 0.15);
+  expectNeverUp(alignment.rmse);
+  for (const AlignedPicture& picture : setup.pictures) {
+    EXPECT_FALSE(picture.place.warp.empty());
+    expectValid(picture.place);
+  }
+}
+
+TEST(AlignPictures, LeavesPicturesStraightThatAre) {
+  BallPictures setup = wronglyPlaced();
+  align(setup);
+  EXPECT_LT(greatest(relativeErrors(setup)), 0.15);
+  double squares = 0.0;
+  double count = 0.0;
+  for (const AlignedPicture& picture : setup.pictures) {
+    for (const Eigen::Vector2f& offset : picture.place.warp.offsets_px()) {
+      squares += static_cast<double>(offset.squaredNorm());
+      count += 1.0;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.3);
+}
+
+/// An anchor of a shape that holds all directions alike.
+PoseAnchor evenAnchor(const RigidTransform& color_from_scan) {
+  PoseAnchor anchor{.color_from_scan = color_from_scan,
+                    .center = color_from_scan.translation(),  // the scan's origin
+                    .stiffness = MotionMatrix::Identity() / 3.0};
+  anchor.stiffness.topLeftCorner<3, 3>() *= 0.2;  // shapes are smaller than the lever
+  return anchor;
+}
+
+/// Nothing but noise.
+void wipe(Image<float>& picture) {
+  for (std::uint64_t i = 0; i < picture.pixels().size(); ++i) {
+    picture.pixels()[i] = static_cast<float>(120.0 + 2.0 * seededNoise(777'000 + i));
+  }
+}
+
+TEST(AlignPictures, AnchorHoldsAPictureWithoutTexture) {
+  BallPictures setup = wronglyPlaced();
+  wipe(setup.pictures[4].intensity);
+  for (int k = 0; k < kPictures; ++k) {
+    setup.pictures[static_cast<std::size_t>(k)].anchor = evenAnchor(wrongPose(k));
+  }
+  const ColorAlignment alignment = align(setup);
+  const double moved_px = movedBy(setup, 4, wrongPose(4));
+  std::printf("a picture without texture, anchored: moved %.2f px\n", moved_px);
+  // 0.3 mm along the normals, 0.5 mm in all; three times that.
+  EXPECT_LT(moved_px, 1.5);
+  expectValid(setup.pictures[4].place);
+  expectNeverUp(alignment.rmse);
+}
+
+TEST(AlignPictures, APictureWithoutTextureAndAnchorDoesNotFlyAway) {
+  BallPictures setup = wronglyPlaced();
+  wipe(setup.pictures[4].intensity);
+  const ColorAlignment alignment = align(setup);
+  const double moved_px = movedBy(setup, 4, wrongPose(4));
+  std::printf("a picture without texture, free: moved %.2f px\n", moved_px);
+  // Where nothing can be told, no farther than poses are ever off.
+  EXPECT_LT(moved_px, 5.0);
+  expectValid(setup.pictures[4].place);
+  expectNeverUp(alignment.rmse);
+}
+
+TEST(AlignPictures, AnUntexturedPictureDoesNotSpoilTheOthers) {
+  BallPictures setup = wronglyPlaced();
+  std::ranges::fill(setup.pictures[4].intensity.pixels(), 120.0F);
+  align(setup);
+  expectValid(setup.pictures[4].place);
+  EXPECT_LT(greatest(relativeErrors(setup, 4), 4), 0.25);
+}
+
+TEST(AlignPictures, AnchorsHoldWhatColoursDoNot) {
+  // All pictures off in the same way: they agree about the surface nearly as well as before, only
+  // depth can tell. Shrinking the ring by 2 mm towards the surface is such a way.
+  const auto nearer = [](int k) {
+    RigidTransform pose = truePose(k);
+    pose.translation().z() -= 2.0;
+    return pose;
+  };
+  BallPictures setup = wellPlaced();
+  for (int k = 0; k < kPictures; ++k) {
+    setup.pictures[static_cast<std::size_t>(k)].place.color_from_scan = nearer(k);
+    setup.pictures[static_cast<std::size_t>(k)].anchor = evenAnchor(truePose(k));
+  }
+  align(setup, posesAlone());
+  for (int k = 0; k < kPictures; ++k) {
+    const AlignedPicture& picture = setup.pictures[static_cast<std::size_t>(k)];
+    const MotionVector away = motionBetween(
+        picture.place.color_from_scan, picture.anchor->color_from_scan, picture.anchor->center);
+    // Twice what anchor_mm allows.
+    EXPECT_LT(std::sqrt(away.dot(picture.anchor->stiffness * away)), 0.6) << k;
+  }
+}
+
+/// A white disc in a picture.
+/// @return  share of its lines of sight that end on it
+double addHighlight(AlignedPicture& picture,
+                    const std::vector<Eigen::Vector3f>& vertices,
+                    double radius_px) {
+  const auto inside = [&](double u, double v) {
+    return std::hypot(u - 175.0, v - 105.0) < radius_px;
+  };
+  Image<float>& image = picture.intensity;
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      if (inside(u, v)) {
+        image.at(u, v) = 245.0F;
+      }
+    }
+  }
+  double hidden = 0.0;
+  for (const SightLine& line : picture.sight) {
+    const Eigen::Vector2d place =
+        pinhole().project(truePose(1) * vertices[line.vertex].cast<double>());
+    hidden += inside(place.x(), place.y()) ? 1.0 : 0.0;
+  }
+  return hidden / static_cast<double>(picture.sight.size());
+}
+
+TEST(AlignPictures, BearsAHighlight) {
+  for (const bool anchored : {false, true}) {
+    BallPictures setup = wronglyPlaced();
+    for (int k = 0; anchored && k < kPictures; ++k) {
+      setup.pictures[static_cast<std::size_t>(k)].anchor = evenAnchor(truePose(k));
+    }
+    const double share = addHighlight(setup.pictures[1], setup.vertices, 31.0);
+    EXPECT_GT(share, 0.13);
+    EXPECT_LT(share, 0.17);
+    const ColorAlignment alignment = align(setup, posesAlone());
+    const std::vector<double> errors_px = relativeErrors(setup, 1);
+    std::printf("a highlight on %.0f %%, %s: its picture %.3f px, others %.3f px\n",
+                100.0 * share,
+                anchored ? "anchored" : "free",
+                errors_px[1],
+                greatest(errors_px, 1));
+    EXPECT_LT(errors_px[1], 0.4);
+    EXPECT_LT(greatest(errors_px, 1), 0.2);
+    expectNeverUp(alignment.rmse);
+  }
+}
+
+TEST(AlignPictures, MovesNothingWithoutSharedSight) {
+  BallPictures none = wronglyPlaced();
+  for (AlignedPicture& picture : none.pictures) {
+    picture.sight.clear();
+  }
+  BallPictures one = wronglyPlaced();
+  one.pictures.resize(1);
+  BallPictures apart = wronglyPlaced();  // each vertex belongs to one picture alone
+  for (std::size_t k = 0; k < apart.pictures.size(); ++k) {
+    std::erase_if(apart.pictures[k].sight,
+                  [k](const SightLine& line) { return line.vertex % kPictures != k; });
+  }
+  for (BallPictures* setup : {&none, &one, &apart}) {
+    const ColorAlignment alignment = align(*setup);
+    for (std::size_t k = 0; k < setup->pictures.size(); ++k) {
+      expectValid(setup->pictures[k].place);
+      EXPECT_LT((setup->pictures[k].place.color_from_scan.matrix() -
+                 wrongPose(static_cast<int>(k)).matrix())
+                    .norm(),
+                1e-4)
+          << k;
+      for (const Eigen::Vector2f& offset : setup->pictures[k].place.warp.offsets_px()) {
+        EXPECT_LT(offset.norm(), 1e-3F);
+      }
+    }
+    for (const double rmse : alignment.rmse) {
+      EXPECT_LT(rmse, 1e-3);
+    }
+  }
+  BallPictures empty;
+  EXPECT_EQ(align(empty).vertex_observations, 0U);
+  EXPECT_EQ(align(none).vertex_observations, 0U);
+}
+
+TEST(AlignPictures, APictureWithoutSightStaysWhileOthersMove) {
+  BallPictures setup = wronglyPlaced();
+  setup.pictures[3].sight.clear();
+  align(setup, posesAlone());
+  EXPECT_TRUE(setup.pictures[3].place.color_from_scan.isApprox(wrongPose(3), 1e-12));
+  EXPECT_LT(greatest(relativeErrors(setup), 3), 0.1);
+}
+
+TEST(AlignPictures, CountsItsWork) {
+  BallPictures setup = wronglyPlaced();
+  std::size_t lines = 0;
+  for (const AlignedPicture& picture : setup.pictures) {
+    lines += picture.sight.size();
+  }
+  std::vector<double> fractions;
+  Job job;
+  job.report = [&](auto, double fraction) { fractions.push_back(fraction); };
+  const ColorAlignment alignment = align(setup, {}, job);
+  EXPECT_EQ(alignment.vertex_observations, lines);
+  EXPECT_GT(alignment.iterations(), 5);
+  EXPECT_LE(alignment.iterations(), 80);
+  EXPECT_GT(alignment.rmse.size(), 1U);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  ASSERT_FALSE(fractions.empty());
+  EXPECT_GE(fractions.front(), 0.0);
+  EXPECT_LE(fractions.back(), 1.0);
+}
+
+TEST(AlignPictures, StopsWithValidPlacements) {
+  BallPictures full = wronglyPlaced();
+  const ColorAlignment whole = align(full);
+  for (const int reports : {0, 2, 5}) {
+    BallPictures setup = wronglyPlaced();
+    std::stop_source stop;
+    if (reports == 0) {
+      stop.request_stop();
+    }
+    int heard = 0;
+    const Job job{.stop = stop.get_token(), .report = [&](auto, auto) {
+                    if (++heard == reports) {
+                      stop.request_stop();
+                    }
+                  }};
+    const ColorAlignment alignment = align(setup, {}, job);
+    EXPECT_LE(alignment.iterations(), reports + 1);
+    EXPECT_LT(alignment.iterations(), whole.iterations());
+    for (std::size_t k = 0; k < setup.pictures.size(); ++k) {
+      expectValid(setup.pictures[k].place);
+    }
+    expectNeverUp(alignment.rmse);
+    // Never worse than they came.
+    EXPECT_LT(greatest(relativeErrors(setup)), 1.1 * greatest(relativeErrors(wronglyPlaced())));
+    if (reports == 0) {
+      EXPECT_EQ(movedBy(setup, 0, wrongPose(0)) < 1e-3, true);
+    }
+  }
+}
+
+TEST(AlignPictures, GivesTheSameBitsOnAnyNumberOfThreads) {
+  BallPictures a = wronglyPlaced();
+  BallPictures b = wronglyPlaced();
+  const ColorAlignment many = align(a);
+  const ColorAlignment one = [&] {
+    const ThreadLimit limit(1);
+    return align(b);
+  }();
+  EXPECT_EQ(many.rmse, one.rmse);
+  EXPECT_EQ(many.iterations(), one.iterations());
+  for (std::size_t k = 0; k < a.pictures.size(); ++k) {
+    const PicturePlacement& x = a.pictures[k].place;
+    const PicturePlacement& y = b.pictures[k].place;
+    EXPECT_EQ(x.color_from_scan.matrix(), y.color_from_scan.matrix());
+    EXPECT_EQ(x.warp.offsets_px(), y.warp.offsets_px());
+  }
+}
+
+}  // namespace
+}  // namespace tarsus
