@@ -2,7 +2,7 @@
 
 #include "reconstruction/base/parallel.h"
 #include "reconstruction/texture/lattice_step.h"
-#include "reconstruction/texture/patch_sums.h"
+#include "reconstruction/texture/picture_sums.h"
 #include "reconstruction/texture/reduced_image.h"
 #include "reconstruction/texture/sight_patches.h"
 
@@ -12,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace tarsus {
 namespace {
@@ -48,6 +49,7 @@ class Alignment {
         base_poses_(pictures.size()) {
     for (AlignedPicture& picture : pictures_) {
       picture.place.warp = ControlLattice();
+      anchors_.push_back(anchorOf(picture));
     }
   }
 
@@ -60,7 +62,7 @@ class Alignment {
       useSize(size);
       iterate(own, last ? result_.rigid_full_size : result_.rigid_small_sizes);
     }
-    if (options_.lattice_iterations > 0 && total_weight_ > 0.0 && !job_.stopped()) {
+    if (options_.lattice_iterations > 0 && sums_->totalWeight() > 0.0 && !job_.stopped()) {
       useLattices();
       iterate(options_.lattice_iterations, result_.lattice);
     }
@@ -71,7 +73,8 @@ class Alignment {
   [[nodiscard]] bool bending() const { return !lattices_.empty(); }
 
   void useSize(const Size& size) {
-    small_ = reduced(camera_, size.factor);
+    factor_ = size.factor;
+    small_ = reduced(camera_, factor_);
     parallelFor(static_cast<int>(pictures_.size()), [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       intensity_[i] = reduced(pictures_[i].intensity, size.factor);
@@ -80,7 +83,7 @@ class Alignment {
     const auto factor = static_cast<std::size_t>(size.factor);
     usePatches({.thinning = factor * factor, .least_trust = size.least_trust, .cell_of = {}});
     if (size.factor == 1) {
-      result_.vertex_observations = observations_;
+      result_.vertex_observations = sums_->observations();
     }
   }
 
@@ -102,31 +105,10 @@ class Alignment {
   }
 
   void usePatches(const PatchChoice& choice) {
-    patches_ = makeSightPatches(vertices_, order_, pictures_, choice);
-    first_run_.assign(patches_.size() + 1, 0);
-    first_vertex_.assign(patches_.size() + 1, 0);
-    total_weight_ = 0.0;
-    observations_ = 0;
-    weights_.assign(pictures_.size(), 0.0);
-    for (std::size_t i = 0; i < patches_.size(); ++i) {
-      first_run_[i + 1] = first_run_[i] + patches_[i].runs.size();
-      first_vertex_[i + 1] = first_vertex_[i] + patches_[i].x_mm.size();
-      for (const SightRun& run : patches_[i].runs) {
-        for (std::uint32_t b = run.first_block; b < run.first_block + run.blocks; ++b) {
-          for (const float weight : patches_[i].blocks[b].weight) {
-            weights_[run.picture] += static_cast<double>(weight);
-            observations_ += weight > 0.0F ? 1 : 0;
-          }
-        }
-      }
-    }
-    for (const double weight : weights_) {
-      total_weight_ += weight;
-    }
-    wanted_.assign(first_vertex_.back(), 0.0F);
-    centers_.clear();
-    rigid_sums_.resize(bending() ? 0 : first_run_.back());
-    cell_sums_.resize(bending() ? first_run_.back() : 0);
+    sums_.emplace(makeSightPatches(vertices_, order_, pictures_, choice),
+                  pictures_.size(),
+                  bending() ? PictureSums::Kind::Cells : PictureSums::Kind::Rigid,
+                  static_cast<float>(options_.outlier_levels * factor_));
   }
 
   void placeImages() {
@@ -137,7 +119,7 @@ class Alignment {
         image.rotation[static_cast<std::size_t>(k)] =
             static_cast<float>(pose.linear()(k / 3, k % 3));
       }
-      const Eigen::Vector3d pivot = pivotOf(i);
+      const Eigen::Vector3d& pivot = anchors_[i].center;
       for (int k = 0; k < 3; ++k) {
         const auto j = static_cast<std::size_t>(k);
         image.translation[j] = static_cast<float>(pose.translation()[k]);
@@ -150,115 +132,59 @@ class Alignment {
     }
   }
 
-  /// Rigid steps turn about what the picture looks at, so that turns and shifts hardly couple.
-  [[nodiscard]] Eigen::Vector3d pivotOf(std::size_t picture) const {
-    const AlignedPicture& own = pictures_[picture];
-    if (own.anchor) {
-      return own.anchor->center;
+  /// Without depth, a picture is held loosely where it begins: one that shows nothing but noise
+  /// must not wander. Motions turn about what it looks at, so that turns and shifts hardly couple.
+  [[nodiscard]] PoseAnchor anchorOf(const AlignedPicture& picture) const {
+    if (picture.anchor) {
+      return *picture.anchor;
     }
-    if (own.sight.empty()) {
-      return Eigen::Vector3d::Zero();
+    PoseAnchor anchor{.color_from_scan = picture.place.color_from_scan};
+    if (!picture.sight.empty()) {
+      const SightLine& middle = picture.sight[picture.sight.size() / 2];
+      anchor.center = anchor.color_from_scan * vertices_[middle.vertex].cast<double>();
     }
-    const SightLine& middle = own.sight[own.sight.size() / 2];
-    return own.place.color_from_scan * vertices_[middle.vertex].cast<double>();
+    const double softer = options_.anchor_mm / options_.loose_anchor_mm;
+    anchor.stiffness = softer * softer * MotionMatrix::Identity();
+    return anchor;
   }
 
-  /// Goes through all patches: what the pictures say together, and how each differs from it.
   /// @return robust sum of squares [grey levels^2] with the priors
   double evaluate() {
     placeImages();
-    parallelFor(static_cast<int>(patches_.size()),
-                [this](int i) { evaluatePatch(static_cast<std::size_t>(i)); });
-    double energy = 0.0;
-    if (bending()) {
-      for (const CellSums& sums : cell_sums_) {
-        energy += static_cast<double>(sums.back());
-      }
-    } else {
-      for (const RigidSums& sums : rigid_sums_) {
-        energy += static_cast<double>(sums.back());
-      }
-    }
+    const Agreement agreement = sums_->evaluate(images_);
     if (variance_ < 0.0) {  // a phase begins: its priors count against this disagreement
-      variance_ = total_weight_ > 0.0 ? energy / total_weight_ : 0.0;
+      variance_ = agreement.variance();
     }
+    double energy = agreement.loss;
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
       energy += bending() ? priorEnergy(pictures_[k].place.warp, latticePrior()) : anchorEnergy(k);
     }
     return energy;
   }
 
-  void evaluatePatch(std::size_t i) {
-    thread_local PatchSums sums;
-    sums.useHuber(static_cast<float>(options_.huber_levels));
-    const SightPatch& patch = patches_[i];
-    const std::size_t first = first_vertex_[i];
-    const std::size_t count = patch.x_mm.size();
-    const std::span<float> wanted = std::span(wanted_).subspan(first, count);
-    const std::span<const float> centers =
-        centers_.empty() ? std::span<const float>() : std::span(centers_).subspan(first, count);
-    const std::size_t runs = patch.runs.size();
-    sums.sample(patch, images_);
-    sums.average(patch, centers, wanted);
-    if (bending()) {
-      sums.sumCells(patch, wanted, std::span(cell_sums_).subspan(first_run_[i], runs));
-    } else {
-      sums.sumRigid(patch, images_, wanted, std::span(rigid_sums_).subspan(first_run_[i], runs));
-    }
-  }
-
   // --- rigid steps
 
   [[nodiscard]] double anchorWeight(std::size_t picture) const {
-    return weights_[picture] * variance_ / (options_.anchor_mm * options_.anchor_mm);
+    return sums_->weights()[picture] * variance_ / (options_.anchor_mm * options_.anchor_mm);
   }
 
   [[nodiscard]] double anchorEnergy(std::size_t picture) const {
-    const AlignedPicture& own = pictures_[picture];
-    if (!own.anchor) {
-      return 0.0;
-    }
-    const MotionVector away =
-        motionBetween(own.place.color_from_scan, own.anchor->color_from_scan, own.anchor->center);
-    return anchorWeight(picture) * away.dot(own.anchor->stiffness * away);
-  }
-
-  struct RigidEquations {
-    MotionMatrix normal = MotionMatrix::Zero();
-    MotionVector right = MotionVector::Zero();
-  };
-
-  [[nodiscard]] std::vector<RigidEquations> rigidEquations() const {
-    std::vector<RigidEquations> all(pictures_.size());
-    for (std::size_t i = 0; i < patches_.size(); ++i) {
-      for (std::size_t r = 0; r < patches_[i].runs.size(); ++r) {
-        const RigidSums& sums = rigid_sums_[first_run_[i] + r];
-        RigidEquations& own = all[patches_[i].runs[r].picture];
-        std::size_t index = 0;
-        for (Eigen::Index j = 0; j < 6; ++j) {
-          for (Eigen::Index k = 0; k <= j; ++k, ++index) {
-            own.normal(j, k) += static_cast<double>(sums[index]);
-          }
-          own.right[j] += static_cast<double>(sums[21 + static_cast<std::size_t>(j)]);
-        }
-      }
-    }
-    return all;
+    const PoseAnchor& anchor = anchors_[picture];
+    const MotionVector away = motionBetween(
+        pictures_[picture].place.color_from_scan, anchor.color_from_scan, anchor.center);
+    return anchorWeight(picture) * away.dot(anchor.stiffness * away);
   }
 
   void planRigidSteps() {
-    const std::vector<RigidEquations> all = rigidEquations();
+    const std::vector<RigidEquations> all = sums_->rigidEquations();
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
       base_poses_[k] = pictures_[k].place.color_from_scan;
-      pivots_.resize(pictures_.size());
-      pivots_[k] = pivotOf(k);
-      MotionMatrix normal = all[k].normal.selfadjointView<Eigen::Lower>();
-      MotionVector right = all[k].right;
-      if (const auto& anchor = pictures_[k].anchor) {
-        const MotionMatrix stiffness = anchorWeight(k) * anchor->stiffness;
-        normal += stiffness;
-        right += stiffness * motionBetween(base_poses_[k], anchor->color_from_scan, anchor->center);
-      }
+      const MotionMatrix stiffness = anchorWeight(k) * anchors_[k].stiffness;
+      MotionMatrix normal = all[k].normal + stiffness;
+      const MotionVector right =
+          all[k].right + stiffness * motionBetween(base_poses_[k],
+                                                   anchors_[k].color_from_scan,
+                                                   anchors_[k].center);
       normal += 1e-6 * normal.trace() * MotionMatrix::Identity();
       const MotionVector step = normal.ldlt().solve(right);
       rigid_steps_[k] = step.allFinite() ? step : MotionVector::Zero();
@@ -274,18 +200,8 @@ class Alignment {
   }
 
   void planLatticeSteps() {
-    using Cells = std::vector<std::array<double, kCellSums>>;
-    std::vector<Cells> cells(pictures_.size(), Cells(pictures_[0].place.warp.offsets_px().size()));
-    for (std::size_t i = 0; i < patches_.size(); ++i) {
-      for (std::size_t r = 0; r < patches_[i].runs.size(); ++r) {
-        const SightRun& run = patches_[i].runs[r];
-        const CellSums& sums = cell_sums_[first_run_[i] + r];
-        std::array<double, kCellSums>& own = cells[run.picture][run.cell];
-        for (std::size_t j = 0; j < kCellSums; ++j) {
-          own[j] += static_cast<double>(sums[j]);
-        }
-      }
-    }
+    const std::vector<CellEquations> cells =
+        sums_->cellEquations(pictures_[0].place.warp.offsets_px().size());
     parallelFor(static_cast<int>(pictures_.size()), [&](int i) {
       const auto k = static_cast<std::size_t>(i);
       base_offsets_[k] = pictures_[k].place.warp.offsets_px();
@@ -302,7 +218,8 @@ class Alignment {
     for (std::size_t k = 0; k < pictures_.size(); ++k) {
       PicturePlacement& place = pictures_[k].place;
       if (!bending()) {
-        place.color_from_scan = motionOf(share * rigid_steps_[k], pivots_[k]) * base_poses_[k];
+        place.color_from_scan =
+            motionOf(share * rigid_steps_[k], anchors_[k].center) * base_poses_[k];
         continue;
       }
       for (std::size_t i = 0; i < base_offsets_[k].size(); ++i) {
@@ -313,7 +230,7 @@ class Alignment {
   }
 
   void iterate(int iterations, AlignmentPhase& phase) {
-    if (iterations <= 0 || !(total_weight_ > 0.0)) {
+    if (iterations <= 0 || !(sums_->totalWeight() > 0.0)) {
       return;
     }
     const auto start = std::chrono::steady_clock::now();
@@ -321,7 +238,7 @@ class Alignment {
     variance_ = -1.0;
     double current = evaluate();
     if (full_size && result_.rmse.empty()) {
-      result_.rmse.push_back(std::sqrt(current / total_weight_));
+      result_.rmse.push_back(std::sqrt(current / sums_->totalWeight()));
     }
     for (int done = 0; done < iterations && !job_.stopped(); ++done) {
       report();
@@ -330,7 +247,7 @@ class Alignment {
       current = next;
       ++phase.iterations;
       if (full_size) {
-        result_.rmse.push_back(std::sqrt(current / total_weight_));
+        result_.rmse.push_back(std::sqrt(current / sums_->totalWeight()));
       }
       if (slow) {
         break;
@@ -342,7 +259,7 @@ class Alignment {
 
   /// Takes as much of the planned step as makes the whole better.
   double step(double current) {
-    centers_ = wanted_;
+    sums_->keepMeans();
     plan();
     double share = 1.0;
     for (int i = 0; i < kHalvings; ++i, share *= 0.5) {
@@ -365,6 +282,7 @@ class Alignment {
   std::span<const Eigen::Vector3f> vertices_;
   const Intrinsics camera_;
   std::span<AlignedPicture> pictures_;
+  std::vector<PoseAnchor> anchors_;
   const ColorAlignmentOptions& options_;
   const Job& job_;
   ColorAlignment result_;
@@ -372,25 +290,16 @@ class Alignment {
 
   // of the size in work
   std::vector<std::uint32_t> order_;
+  int factor_ = 1;
   Intrinsics small_;
   std::vector<PlacedImage> images_;
   std::vector<Image<float>> intensity_;
-  std::vector<SightPatch> patches_;
-  std::vector<std::size_t> first_run_;     ///< of each patch, in the sums
-  std::vector<std::size_t> first_vertex_;  ///< of each patch, in the grey levels
-  std::vector<double> weights_;            ///< of each picture's lines of sight
-  double total_weight_ = 0.0;
+  std::optional<PictureSums> sums_;
   double variance_ = 0.0;  ///< mean robust square when the phase began [grey levels^2]
-  std::size_t observations_ = 0;
 
-  // of the last evaluation and the last plan
-  std::vector<float> wanted_;
-  std::vector<float> centers_;
-  std::vector<RigidSums> rigid_sums_;
-  std::vector<CellSums> cell_sums_;
+  // of the last plan
   std::vector<MotionVector> rigid_steps_;
   std::vector<RigidTransform> base_poses_;
-  std::vector<Eigen::Vector3d> pivots_;
   std::vector<LatticeStep> lattices_;
   std::vector<std::vector<Eigen::Vector2f>> base_offsets_;
   std::vector<std::vector<Eigen::Vector2f>> lattice_steps_;

@@ -16,9 +16,12 @@ struct ColorAlignmentOptions {
   int rigid_iterations = 40;    ///< over images at 1/4, 1/2 and full size together
   int lattice_iterations = 40;  ///< at full size, after the rigid ones; 0: poses alone
   int lattice_columns = 20;     ///< 16 to 21, as in Zhou and Koltun 2014
-  double huber_levels = 8.0;    ///< residuals beyond count linearly: highlights, other surfaces
-  double anchor_mm =
-      0.3;  ///< poses may leave what depth says by so much [RMS along the surface's normals]
+  /// Residuals well beyond count as lost: highlights, other surfaces; more in small images.
+  double outlier_levels = 16.0;
+  /// Poses may leave what their depth says by so much [mm, RMS along the surface's normals].
+  double anchor_mm = 0.1;
+  /// Without depth, they may leave where they begin by so much [mm].
+  double loose_anchor_mm = 3.0;
   double lattice_offset_px = 1.5;  ///< standard deviation expected of an offset ...
   double lattice_bend_px = 0.25;   ///< ... and of its difference to the neighbour's
   /// A phase ends when an iteration takes less than this share off the sum of squares; < 0: all

@@ -13,6 +13,13 @@ namespace {
 
 /// Sums over pixels are split into so many parts, whatever the number of threads.
 constexpr std::size_t kParts = 4;
+/// Of the best view's weight at a place: views below the first do not count there (blurred,
+/// slanting or far), views above the second count fully.
+constexpr float kLeastRelative = 0.15F;
+constexpr float kFullRelative = 0.5F;
+/// A vertex that pixels hardly touch must not take all that they miss: so much weight holds it [a
+/// best view's pixel].
+constexpr float kHold = 0.5F;
 constexpr float kOddColor = 20.0F;  ///< so far from the blend, a pixel counts half [grey levels]
 
 /// What one pixel says: the mean of a face's corners by their shares is of this colour.
@@ -52,6 +59,7 @@ class ColorFit {
   void run() {
     parallelFor(static_cast<int>(views_.size()),
                 [this](int k) { readPixels(static_cast<std::size_t>(k)); });
+    preferBestViews();
     mistrustOddColors();
     sumWeights();
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
@@ -120,6 +128,31 @@ class ColorFit {
     });
   }
 
+  /// Weights become relative to the best view's at the place, so that all places count alike.
+  void preferBestViews() {
+    std::vector<std::vector<float>> best(kParts, std::vector<float>(mesh_.vertices.size(), 0.0F));
+    eachPart([&](std::size_t part, const PixelEquation& equation) {
+      for (const std::uint32_t vertex : equation.vertex) {
+        best[part][vertex] = std::max(best[part][vertex], equation.weight);
+      }
+    });
+    parallelChunks(mesh_.vertices.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t part = 1; part < kParts; ++part) {
+          best[0][i] = std::max(best[0][i], best[part][i]);
+        }
+      }
+    });
+    eachView([&](PixelEquation& equation) {
+      const float most = std::max(
+          {best[0][equation.vertex[0]], best[0][equation.vertex[1]], best[0][equation.vertex[2]]});
+      const float relative = equation.weight / most;
+      equation.weight =
+          relative *
+          std::clamp((relative - kLeastRelative) / (kFullRelative - kLeastRelative), 0.0F, 1.0F);
+    });
+  }
+
   void mistrustOddColors() {
     eachView([&](PixelEquation& equation) {
       const float odd = (equation.color - shown(equation)).norm() / kOddColor;
@@ -166,7 +199,7 @@ class ColorFit {
           for (std::size_t part = 1; part < kParts; ++part) {
             sum += pulls_[part][i];
           }
-          colors_.color[i] += sum / weights_[i];
+          colors_.color[i] += sum / (weights_[i] + kHold);
         }
       }
     });

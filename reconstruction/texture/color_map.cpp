@@ -197,7 +197,8 @@ class SurfaceColoring {
         int count = 0;
         std::size_t only = 0;
         for (std::size_t k = 0; k < views_.size(); ++k) {
-          if (const auto seen = views_[k].observe(mesh.vertices[i], mesh.normals[i])) {
+          const auto seen = views_[k].observe(mesh.vertices[i], mesh.normals[i]);
+          if (seen && views_[k].color(*seen).maxCoeff() < kClippedLevel) {
             lines[k][i] = {static_cast<std::uint32_t>(i), seen->weight, seen->trust};
             only = k;
             ++count;

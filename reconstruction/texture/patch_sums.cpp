@@ -2,53 +2,12 @@
 
 #include "reconstruction/base/vector_code.h"
 #include "reconstruction/scene/rigid_motion.h"
+#include "reconstruction/texture/lanes.h"
 
 #include <algorithm>
-#include <cstring>
 
-// Eight lines of sight at a time in GCC's vector types, which need no particular processor: each
-// lane does the same operations in the same order whatever the registers' width.
 namespace tarsus {
 namespace {
-
-using Lanes = float __attribute__((vector_size(32)));
-using LaneInts = std::int32_t __attribute__((vector_size(32)));
-using LaneArray = std::array<float, kLanes>;
-
-#define TARSUS_INLINE [[gnu::always_inline]] inline
-
-TARSUS_INLINE void load(const LaneArray& from, Lanes& to) {
-  std::memcpy(&to, from.data(), sizeof(to));
-}
-TARSUS_INLINE void store(const Lanes& from, LaneArray& to) {
-  std::memcpy(to.data(), &from, sizeof(from));
-}
-TARSUS_INLINE void gather(const float* table,
-                          const std::array<std::int32_t, kLanes>& index,
-                          Lanes& to) {
-  LaneArray values;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    values[lane] = table[index[lane]];
-  }
-  load(values, to);
-}
-/// The lanes one after the other, always in the same order.
-TARSUS_INLINE float sumOf(const Lanes& lanes) {
-  LaneArray values;
-  store(lanes, values);
-  float sum = 0.0F;
-  for (const float value : values) {
-    sum += value;
-  }
-  return sum;
-}
-TARSUS_INLINE void clamp(Lanes& x, float low, float high) {
-  const Lanes lows = Lanes{} + low;
-  const Lanes highs = Lanes{} + high;
-  x = x < lows ? lows : x;
-  x = x > highs ? highs : x;
-}
-TARSUS_INLINE void absolute(const Lanes& x, Lanes& size) { size = x < 0.0F ? -x : x; }
 
 /// The bilinear surface through the four pixels around each place, and its slopes.
 TARSUS_INLINE void sampleImage(const Image<float>& image, Lanes u, Lanes v, SightSample& sample) {
@@ -144,19 +103,18 @@ void sampleRun(const SightPatch& patch,
   }
 }
 
-/// Weights by Huber's loss for residuals.
-TARSUS_INLINE void huber(const Lanes& residual, float limit, Lanes& weight) {
-  Lanes size;
-  absolute(residual, size);
-  const Lanes far = limit / size;
-  weight = size <= limit ? Lanes{} + 1.0F : far;
+/// What is left of residuals' weights: (1 + (r / outlier)^2)^-2, of Geman and McClure's loss.
+TARSUS_INLINE void robustWeight(const Lanes& residual, float outlier, Lanes& weight, Lanes& near) {
+  const Lanes relative = residual * (1.0F / outlier);
+  near = 1.0F / (1.0F + relative * relative);
+  weight = near * near;
 }
 
 TARSUS_VECTOR_CODE
 void addWeighted(const SightPatch& patch,
                  const SightSample* samples,
                  const float* centers,
-                 float limit,
+                 float outlier,
                  float* weights,
                  float* sums) {
   for (std::size_t i = 0; i < patch.blocks.size(); ++i) {
@@ -168,8 +126,9 @@ void addWeighted(const SightPatch& patch,
     if (centers != nullptr) {
       Lanes center;
       Lanes counted;
+      Lanes near;
       gather(centers, block.vertex, center);
-      huber(value - center, limit, counted);
+      robustWeight(value - center, outlier, counted, near);
       weight = weight * counted;
     }
     LaneArray own_weight;
@@ -183,7 +142,7 @@ void addWeighted(const SightPatch& patch,
   }
 }
 
-/// The rest of each line of sight, its weight by Huber's loss, and that loss.
+/// The rest of each line of sight, and how it counts.
 struct Rest {
   Lanes residual;
   Lanes weight;
@@ -193,23 +152,20 @@ struct Rest {
 TARSUS_INLINE void restOf(const SightBlock& block,
                           const SightSample& sample,
                           const float* wanted,
-                          float limit,
+                          float outlier,
                           Rest& rest) {
   Lanes value;
   Lanes level;
   Lanes weight;
   Lanes counted;
-  Lanes size;
+  Lanes near;
   load(sample.value, value);
   gather(wanted, block.vertex, level);
   load(block.weight, weight);
   rest.residual = level - value;
-  huber(rest.residual, limit, counted);
+  robustWeight(rest.residual, outlier, counted, near);
   rest.weight = weight * counted;
-  absolute(rest.residual, size);
-  const Lanes square = size * size;
-  const Lanes linear = limit * (2.0F * size - limit);
-  rest.loss = weight * (size <= limit ? square : linear);
+  rest.loss = weight * rest.residual * rest.residual * near;
 }
 
 TARSUS_VECTOR_CODE
@@ -218,14 +174,14 @@ void sumRigidRun(const SightPatch& patch,
                  const PlacedImage& image,
                  const SightSample* samples,
                  const float* wanted,
-                 float limit,
+                 float outlier,
                  RigidSums& sums) {
   constexpr auto kPerLever = static_cast<float>(1.0 / kMotionLever_mm);
   std::array<Lanes, kRigidSums> total{};
   for (std::uint32_t i = run.first_block; i < run.first_block + run.blocks; ++i) {
     const SightSample& sample = samples[i];
     Rest rest;
-    restOf(patch.blocks[i], sample, wanted, limit, rest);
+    restOf(patch.blocks[i], sample, wanted, outlier, rest);
     Lanes x;
     Lanes y;
     Lanes z;
@@ -255,6 +211,8 @@ void sumRigidRun(const SightPatch& patch,
       total[21 + j] += pull * row[j];
     }
     total[27] += rest.loss;
+    total[28] += pull * rest.residual;
+    total[29] += rest.weight;
   }
   for (std::size_t i = 0; i < kRigidSums; ++i) {
     sums[i] = sumOf(total[i]);
@@ -266,13 +224,13 @@ void sumCellRun(const SightPatch& patch,
                 const SightRun& run,
                 const SightSample* samples,
                 const float* wanted,
-                float limit,
+                float outlier,
                 CellSums& sums) {
   std::array<Lanes, kCellSums> total{};
   for (std::uint32_t i = run.first_block; i < run.first_block + run.blocks; ++i) {
     const SightSample& sample = samples[i];
     Rest rest;
-    restOf(patch.blocks[i], sample, wanted, limit, rest);
+    restOf(patch.blocks[i], sample, wanted, outlier, rest);
     Lanes a;
     Lanes b;
     Lanes du;
@@ -299,6 +257,8 @@ void sumCellRun(const SightPatch& patch,
       total[31 + 2 * j] += share[j] * pull_v;
     }
     total[38] += rest.loss;
+    total[39] += rest.weight * rest.residual * rest.residual;
+    total[40] += rest.weight;
   }
   for (std::size_t i = 0; i < kCellSums; ++i) {
     sums[i] = sumOf(total[i]);
@@ -321,7 +281,8 @@ void PatchSums::average(const SightPatch& patch,
   const auto mean = [&](const float* around) {
     weight_sums_.assign(count, 0.0F);
     std::ranges::fill(wanted, 0.0F);
-    addWeighted(patch, samples_.data(), around, huber_levels_, weight_sums_.data(), wanted.data());
+    addWeighted(
+        patch, samples_.data(), around, outlier_levels_, weight_sums_.data(), wanted.data());
     for (std::size_t i = 0; i < count; ++i) {
       wanted[i] = weight_sums_[i] > 0.0F ? wanted[i] / weight_sums_[i] : 0.0F;
     }
@@ -342,7 +303,7 @@ void PatchSums::sumRigid(const SightPatch& patch,
   for (std::size_t i = 0; i < patch.runs.size(); ++i) {
     const SightRun& run = patch.runs[i];
     sumRigidRun(
-        patch, run, images[run.picture], samples_.data(), wanted.data(), huber_levels_, sums[i]);
+        patch, run, images[run.picture], samples_.data(), wanted.data(), outlier_levels_, sums[i]);
   }
 }
 
@@ -350,7 +311,7 @@ void PatchSums::sumCells(const SightPatch& patch,
                          std::span<const float> wanted,
                          std::span<CellSums> sums) const {
   for (std::size_t i = 0; i < patch.runs.size(); ++i) {
-    sumCellRun(patch, patch.runs[i], samples_.data(), wanted.data(), huber_levels_, sums[i]);
+    sumCellRun(patch, patch.runs[i], samples_.data(), wanted.data(), outlier_levels_, sums[i]);
   }
 }
 

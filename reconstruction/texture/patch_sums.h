@@ -21,14 +21,26 @@ struct PlacedImage {
   const ControlLattice* warp = nullptr;  ///< null: the picture does not bend
 };
 
+/// How well a run agrees with the means: Geman and McClure's loss of the residuals, and their
+/// squares and weights as far as they are no outliers.
+struct RobustSums {
+  float loss = 0.0F;     ///< [grey levels^2]
+  float squares = 0.0F;  ///< [grey levels^2]
+  float weight = 0.0F;
+};
+template <std::size_t Count>
+[[nodiscard]] RobustSums robustSums(const std::array<float, Count>& sums) {
+  return {sums[Count - 3], sums[Count - 2], sums[Count - 1]};
+}
+
 /// Sums over one run's lines of sight: normal equations of a rigid step (motionOf in
-/// rigid_motion.h), lower triangle row by row, then the right side, then the robust squares.
-inline constexpr std::size_t kRigidSums = 21 + 6 + 1;
+/// rigid_motion.h), lower triangle row by row, then the right side, then as RobustSums.
+inline constexpr std::size_t kRigidSums = 21 + 6 + 3;
 using RigidSums = std::array<float, kRigidSums>;
 
 /// The same for the four nodes of a lattice cell: for each pair of nodes (0 0, 1 0, 1 1, 2 0, ...)
-/// the products of slopes uu, uv, vv; for each node the right side u, v; then the robust squares.
-inline constexpr std::size_t kCellSums = 10 * 3 + 4 * 2 + 1;
+/// the products of slopes uu, uv, vv; for each node the right side u, v; then as RobustSums.
+inline constexpr std::size_t kCellSums = 10 * 3 + 4 * 2 + 3;
 using CellSums = std::array<float, kCellSums>;
 
 /// What the pictures show at the lines of sight of one block.
@@ -42,8 +54,8 @@ struct alignas(32) SightSample {
 /// picture lacks. Room that is used again from patch to patch.
 class PatchSums {
  public:
-  /// Residuals beyond count linearly [grey levels].
-  void useHuber(float levels) { huber_levels_ = levels; }
+  /// Residuals of this size count a quarter, far larger ones nothing [grey levels].
+  void useOutlierLevels(float levels) { outlier_levels_ = levels; }
 
   /// Samples all pictures.
   void sample(const SightPatch& patch, std::span<const PlacedImage> images);
@@ -61,7 +73,7 @@ class PatchSums {
                 std::span<CellSums> sums) const;
 
  private:
-  float huber_levels_ = 8.0F;
+  float outlier_levels_ = 16.0F;
   std::vector<SightSample> samples_;
   std::vector<float> weight_sums_;
   std::vector<float> plain_means_;

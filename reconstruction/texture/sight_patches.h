@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reconstruction/texture/color_alignment.h"
+#include "reconstruction/texture/lanes.h"
 
 #include <array>
 #include <cstdint>
@@ -9,9 +10,6 @@
 #include <vector>
 
 namespace tarsus {
-
-/// Lines of sight are worked on so many at a time, in vector registers.
-inline constexpr std::size_t kLanes = 8;
 
 /// Eight lines of sight of one picture; those that fill up the last block weigh nothing.
 struct alignas(32) SightBlock {

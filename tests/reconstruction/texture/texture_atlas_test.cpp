@@ -156,7 +156,7 @@ TEST(TextureAtlas, LevelsSeamsThatExposureLeft) {
   const std::vector<ColorGain> gains(2);
   const TextureAtlasSource source{
       .mesh = &surface.mesh, .views = *views, .keyframes = keyframes, .gains = gains};
-  const auto levelled = makeTextureAtlas(source, {});
+  const auto levelled = makeTextureAtlas(source, {}, Job{});
   const auto raw = makeTextureAtlas(source, {.level_seams = false}, Job{});
   ASSERT_TRUE(levelled && raw);
   const double before = worstSeamStep(*raw, kInner_mm);
@@ -298,7 +298,7 @@ TEST(TextureAtlas, StopsWhenAsked) {
   const auto atlas = makeTextureAtlas({.mesh = &surface.mesh}, {}, Job{.stop = stop.get_token()});
   ASSERT_FALSE(atlas);
   EXPECT_EQ(atlas.error().code, ErrorCode::Cancelled);
-  const auto empty = makeTextureAtlas({}, {});
+  const auto empty = makeTextureAtlas({}, {}, Job{});
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().code, ErrorCode::SurfaceEmpty);
 }
