@@ -1,7 +1,7 @@
 #include "reconstruction/texture/color_alignment.h"
 
 #include "reconstruction/base/parallel.h"
-#include "reconstruction/texture/color_sampling.h"
+#include "tests/reconstruction/texture/ball_pictures.h"
 #include "tests/reconstruction/texture/textured_scene.h"
 
 #include <Eigen/LU>
@@ -9,17 +9,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <numbers>
 
 namespace tarsus {
 namespace {
 
-/// A ball so large that it fills the height of the pictures, its top at the origin.
-constexpr double kRadius_mm = 150.0;
-constexpr double kMinCosine = 0.34;  // 70 degrees
-constexpr int kPictures = 6;
+constexpr int kPictures = kBallPictures;
 constexpr double kTurn_rad = 0.5 * std::numbers::pi / 180.0;
 
 const Intrinsics& pinhole() {
@@ -27,72 +22,9 @@ const Intrinsics& pinhole() {
   return kPinhole;
 }
 
-Eigen::Vector3d ballCenter() { return {0, 0, -kRadius_mm}; }
-Eigen::Vector3d normalAt(const Eigen::Vector3d& p) { return (p - ballCenter()) / kRadius_mm; }
-
-/// Vertices of the ball's cap; the first so many cover it evenly, however many they are (Roberts'
-/// R2 sequence).
-std::vector<Eigen::Vector3f> capVertices(int count) {
-  std::vector<Eigen::Vector3f> vertices;
-  constexpr double kPlastic = 1.32471795724474602596;
-  const double lowest = std::cos(35.0 * std::numbers::pi / 180.0);
-  for (int i = 1; i <= count; ++i) {
-    const double a = i / kPlastic;
-    const double b = i / (kPlastic * kPlastic);
-    const double z = 1.0 - (1.0 - lowest) * (a - std::floor(a));
-    const double turn = 2.0 * std::numbers::pi * b;
-    const double across = std::sqrt(1.0 - z * z);
-    const Eigen::Vector3d n(across * std::cos(turn), across * std::sin(turn), z);
-    vertices.emplace_back((ballCenter() + kRadius_mm * n).cast<float>());
-  }
-  return vertices;
-}
-
-/// Where a pinhole camera sees what the picture shows at a place.
-using Unbend = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
-
 double bendAt(double v) { return 1.5 * std::cos(2.0 * std::numbers::pi * v / 240.0); }
 Eigen::Vector2d unbent(const Eigen::Vector2d& place) {
   return {place.x() - bendAt(place.y()), place.y()};
-}
-
-/// The ball as a camera sees it, one ray a pixel: the texture is smooth.
-Image<float> takePicture(const RigidTransform& color_from_scan,
-                         double noise_levels,
-                         std::uint64_t seed,
-                         const Unbend& unbend = {}) {
-  const RigidTransform scan_from_color = color_from_scan.inverse();
-  const Eigen::Vector3d origin = scan_from_color.translation();
-  Image<float> picture(pinhole().width, pinhole().height);
-  for (int v = 0; v < picture.height(); ++v) {
-    for (int u = 0; u < picture.width(); ++u) {
-      const Eigen::Vector2d place = unbend ? unbend({u, v}) : Eigen::Vector2d(u, v);
-      const Eigen::Vector3d ray =
-          (scan_from_color.linear() * pinhole().ray(place.x(), place.y())).normalized();
-      const double along = -ray.dot(origin - ballCenter());
-      const double root =
-          along * along - (origin - ballCenter()).squaredNorm() + kRadius_mm * kRadius_mm;
-      double level = 90.0;
-      if (root > 0.0) {
-        const Eigen::Vector3d p = origin + (along - std::sqrt(root)) * ray;
-        level = static_cast<double>(intensityOf(solidColor(p).cast<float>()));
-      }
-      const auto pixel = static_cast<std::uint64_t>(v * picture.width() + u);
-      level += noise_levels * seededNoise(seed * 100'000 + pixel);
-      picture.at(u, v) = static_cast<float>(level);
-    }
-  }
-  return picture;
-}
-
-/// Pictures in a ring around the ball's top, 300 mm away and 20 degrees from above; each third one
-/// nearer.
-RigidTransform truePose(int k) {
-  const double turn = 2.0 * std::numbers::pi * k / kPictures;
-  const double scale = k % 3 == 0 ? 0.9 : 1.0;
-  return lookAt({scale * 103.0 * std::cos(turn), scale * 103.0 * std::sin(turn), scale * 282.0},
-                {0, 0, 0})
-      .inverse();
 }
 
 /// Off by 2 mm and half a degree about the ball's top, each picture elsewhere.
@@ -103,62 +35,11 @@ RigidTransform wrongPose(int k, double share = 1.0) {
   };
   MotionVector off;
   off << kMotionLever_mm * kTurn_rad * direction(1.9 * k + 0.3), 2.0 * direction(2.9 * k);
-  return motionOf(share * off, truePose(k).translation()) * truePose(k);
-}
-
-struct BallPictures {
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<AlignedPicture> pictures;
-};
-
-/// How far from the ball's outline, in shares of what edges need: 1 from some 15 px on.
-float trustAt(double cosine) {
-  return static_cast<float>(std::clamp((cosine - kMinCosine) / 0.25, 0.02, 1.0));
-}
-
-void lookFromTruePoses(BallPictures& setup) {
-  for (std::size_t i = 0; i < setup.vertices.size(); ++i) {
-    std::vector<std::pair<std::size_t, SightLine>> lines;
-    const Eigen::Vector3d p = setup.vertices[i].cast<double>();
-    for (std::size_t k = 0; k < setup.pictures.size(); ++k) {
-      const RigidTransform pose = truePose(static_cast<int>(k));
-      const Eigen::Vector3d in_color = pose * p;
-      const double cosine = -(pose.linear() * normalAt(p)).dot(in_color.normalized());
-      const Eigen::Vector2d place = pinhole().project(in_color);
-      if (cosine > kMinCosine && place.minCoeff() > 8.0 && place.x() < 311.0 && place.y() < 231.0) {
-        const double weight = cosine * cosine / in_color.squaredNorm() * 1e5;
-        lines.push_back({k,
-                         {.vertex = static_cast<std::uint32_t>(i),
-                          .weight = static_cast<float>(weight),
-                          .trust = trustAt(cosine)}});
-      }
-    }
-    for (const auto& [k, line] : lines) {
-      if (lines.size() > 1) {
-        setup.pictures[k].sight.push_back(line);
-      }
-    }
-  }
-}
-
-/// The pictures, taken from the true poses and placed there.
-const BallPictures& wellPlaced() {
-  static const BallPictures kSetup = [] {
-    BallPictures setup{.vertices = capVertices(30'000),
-                       .pictures = std::vector<AlignedPicture>(kPictures)};
-    for (int k = 0; k < kPictures; ++k) {
-      AlignedPicture& picture = setup.pictures[static_cast<std::size_t>(k)];
-      picture.intensity = takePicture(truePose(k), 2.0, static_cast<std::uint64_t>(k));
-      picture.place.color_from_scan = truePose(k);
-    }
-    lookFromTruePoses(setup);
-    return setup;
-  }();
-  return kSetup;
+  return motionOf(share * off, trueBallPose(k).translation()) * trueBallPose(k);
 }
 
 BallPictures wronglyPlaced() {
-  BallPictures setup = wellPlaced();
+  BallPictures setup = wellPlacedBallPictures();
   for (int k = 0; k < kPictures; ++k) {
     setup.pictures[static_cast<std::size_t>(k)].place.color_from_scan = wrongPose(k);
   }
@@ -172,75 +53,6 @@ ColorAlignment align(BallPictures& setup,
 }
 
 ColorAlignmentOptions posesAlone() { return {.lattice_iterations = 0}; }
-
-/// How one vertex's true place in a picture differs from the found one.
-struct Miss {
-  std::size_t picture;
-  Eigen::Vector2d off_px;
-  Eigen::Matrix2d px_per_mm;  ///< from the surface's tangents
-};
-
-Miss missOf(const BallPictures& setup,
-            std::size_t k,
-            const Eigen::Vector3d& p,
-            const Unbend& unbend) {
-  const RigidTransform pose = truePose(static_cast<int>(k));
-  const PicturePlacement& place = setup.pictures[k].place;
-  const Eigen::Vector2d found =
-      place.warp.warped(pinhole().project(place.color_from_scan * p).cast<float>()).cast<double>();
-  const Eigen::Vector3d normal = normalAt(p);
-  const Eigen::Vector3d a = normal.cross(Eigen::Vector3d::UnitY()).normalized();
-  const Eigen::Vector3d b = normal.cross(a);
-  const auto project = [&](const Eigen::Vector3d& q) { return pinhole().project(pose * q); };
-  Miss miss{.picture = k,
-            .off_px = (unbend ? unbend(found) : found) - project(p),
-            .px_per_mm = Eigen::Matrix2d::Zero()};
-  miss.px_per_mm.col(0) = (project(p + 0.01 * a) - project(p - 0.01 * a)) / 0.02;
-  miss.px_per_mm.col(1) = (project(p + 0.01 * b) - project(p - 0.01 * b)) / 0.02;
-  return miss;
-}
-
-/// How far each picture lies from all [px RMS]. A slip of all pictures together over the surface is
-/// no error that colours could tell, so each vertex's mean slip is taken off.
-/// @param odd      a picture that does not count in the means, or -1
-/// @param unbends  of the pictures; empty: pinholes
-std::vector<double> relativeErrors(const BallPictures& setup,
-                                   int odd = -1,
-                                   const std::vector<Unbend>& unbends = {}) {
-  std::vector<std::vector<Miss>> misses(setup.vertices.size());
-  for (std::size_t k = 0; k < setup.pictures.size(); ++k) {
-    for (const SightLine& line : setup.pictures[k].sight) {
-      if (line.vertex % 3 == 0) {
-        misses[line.vertex].push_back(missOf(setup,
-                                             k,
-                                             setup.vertices[line.vertex].cast<double>(),
-                                             unbends.empty() ? Unbend() : unbends[k]));
-      }
-    }
-  }
-  std::vector<double> sums(setup.pictures.size(), 0.0);
-  std::vector<double> counts(setup.pictures.size(), 0.0);
-  for (const std::vector<Miss>& vertex : misses) {
-    Eigen::Vector2d slip_mm = Eigen::Vector2d::Zero();
-    double count = 0.0;
-    for (const Miss& miss : vertex) {
-      if (static_cast<int>(miss.picture) != odd) {
-        slip_mm += miss.px_per_mm.inverse() * miss.off_px;
-        count += 1.0;
-      }
-    }
-    for (const Miss& miss : vertex) {
-      if (count >= 2.0) {
-        sums[miss.picture] += (miss.off_px - miss.px_per_mm * (slip_mm / count)).squaredNorm();
-        counts[miss.picture] += 1.0;
-      }
-    }
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    sums[k] = std::sqrt(sums[k] / std::max(counts[k], 1.0));
-  }
-  return sums;
-}
 
 double greatest(const std::vector<double>& values, int except = -1) {
   double result = 0.0;
@@ -286,7 +98,7 @@ TEST(AlignPictures, BringsWrongPosesTogether) {
   const double before_px = greatest(relativeErrors(setup));
   EXPECT_GT(before_px, 1.5);
   const ColorAlignment wrong = align(setup, posesAlone());
-  BallPictures truth = wellPlaced();
+  BallPictures truth = wellPlacedBallPictures();
   const ColorAlignment right = align(truth, posesAlone());
   const double after_px = greatest(relativeErrors(setup));
   std::printf("wrong poses: %.2f px to %.3f px, RMSE to %.3f levels, from true poses %.3f\n",
@@ -322,8 +134,8 @@ TEST(AlignPictures, TakesThePhotometricErrorDownToTheNoise) {
 
 TEST(AlignPictures, StraightensABentPicture) {
   const auto bent = [] {
-    BallPictures setup = wellPlaced();
-    setup.pictures[2].intensity = takePicture(truePose(2), 2.0, 2, unbent);
+    BallPictures setup = wellPlacedBallPictures();
+    setup.pictures[2].intensity = takeBallPicture(trueBallPose(2), 2, unbent);
     return setup;
   };
   std::vector<Unbend> unbends(kPictures);
@@ -419,14 +231,14 @@ TEST(AlignPictures, AnchorsHoldWhatColoursDoNot) {
   // All pictures off in the same way: they agree about the surface nearly as well as before, only
   // depth can tell. Shrinking the ring by 2 mm towards the surface is such a way.
   const auto nearer = [](int k) {
-    RigidTransform pose = truePose(k);
+    RigidTransform pose = trueBallPose(k);
     pose.translation().z() -= 2.0;
     return pose;
   };
-  BallPictures setup = wellPlaced();
+  BallPictures setup = wellPlacedBallPictures();
   for (int k = 0; k < kPictures; ++k) {
     setup.pictures[static_cast<std::size_t>(k)].place.color_from_scan = nearer(k);
-    setup.pictures[static_cast<std::size_t>(k)].anchor = evenAnchor(truePose(k));
+    setup.pictures[static_cast<std::size_t>(k)].anchor = evenAnchor(trueBallPose(k));
   }
   align(setup, posesAlone());
   for (int k = 0; k < kPictures; ++k) {
@@ -453,7 +265,7 @@ double addDisc(AlignedPicture& picture, const std::vector<Eigen::Vector3f>& vert
   double hidden = 0.0;
   for (const SightLine& line : picture.sight) {
     const Eigen::Vector2d place =
-        pinhole().project(truePose(1) * vertices[line.vertex].cast<double>());
+        pinhole().project(trueBallPose(1) * vertices[line.vertex].cast<double>());
     hidden += inside(place.x(), place.y()) ? 1.0 : 0.0;
   }
   return hidden / static_cast<double>(picture.sight.size());
