@@ -5,6 +5,7 @@
 #include "reconstruction/texture/exposure.h"
 #include "reconstruction/texture/keyframe_view.h"
 #include "reconstruction/texture/subdivision.h"
+#include "reconstruction/texture/take_back_midpoints.h"
 #include "reconstruction/texture/unseen_colors.h"
 #include "reconstruction/texture/vertex_chunks.h"
 
@@ -41,6 +42,42 @@ std::vector<float> wantedSpacing(const TriangleMesh& mesh,
     }
   });
   return spacing_mm;
+}
+
+/// Farther apart the farther from the focus.
+void coarsenAwayFrom(const ColorFocus& focus,
+                     const TriangleMesh& mesh,
+                     std::vector<float>& spacing_mm) {
+  for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
+    const double distance_mm = (mesh.vertices[i].cast<double>() - focus.center_mm).norm();
+    spacing_mm[i] *= static_cast<float>(std::max(1.0, distance_mm / focus.radius_mm));
+  }
+}
+
+/// Only what lies in the focus.
+void leaveOutside(const ColorFocus& focus,
+                  const TriangleMesh& mesh,
+                  std::vector<float>& spacing_mm) {
+  for (std::size_t i = 0; i < spacing_mm.size(); ++i) {
+    if ((mesh.vertices[i].cast<double>() - focus.center_mm).norm() > focus.radius_mm) {
+      spacing_mm[i] = std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+/// As many vertices as the keyframes' pixels are worth; what is in the focus gets its own first.
+ExtractedSurface withFinerVertices(const ExtractedSurface& coarse,
+                                   std::span<const KeyframeView> views,
+                                   const ColorMapOptions& options) {
+  std::vector<float> spacing_mm = wantedSpacing(coarse.mesh, views, options);
+  if (!options.focus) {
+    return subdivide(coarse, spacing_mm, options.max_vertices);
+  }
+  leaveOutside(*options.focus, coarse.mesh, spacing_mm);
+  const ExtractedSurface fine_in_focus = subdivide(coarse, spacing_mm, options.max_vertices);
+  spacing_mm = wantedSpacing(fine_in_focus.mesh, views, options);
+  coarsenAwayFrom(*options.focus, fine_in_focus.mesh, spacing_mm);
+  return subdivide(fine_in_focus, spacing_mm, options.max_vertices);
 }
 
 TexturedMesh assemble(ExtractedSurface surface, const SeenColors& colors) {
@@ -89,14 +126,19 @@ class SurfaceColoring {
       return fail(ErrorCode::Cancelled);
     }
     job_.report("texture", 0.0);
-    ExtractedSurface coarse = surface;
+    ExtractedSurface coarse = takeBackMidpoints(surface);
+    turnLowestFirst(
+        coarse.mesh.faces);  // of equal edges the same one is split first, next time too
     if (coarse.mesh.normals.empty()) {
       coarse.mesh.normals = vertexNormals(coarse.mesh);
     }
     if (auto looked = look(coarse.mesh); !looked) {
       return tl::unexpected(looked.error());
     }
-    fine_ = subdivide(coarse, wantedSpacing(coarse.mesh, views_, options_), options_.max_vertices);
+    fine_ = withFinerVertices(coarse, views_, options_);
+    if (fine_.mesh.vertices == surface.mesh.vertices) {
+      fine_.colors = surface.colors;
+    }
     if (options_.align) {
       anchor(coarse.mesh);
       if (auto looked = look(coarse.mesh); !looked) {

@@ -8,14 +8,22 @@
 #include "reconstruction/texture/exposure.h"
 #include "reconstruction/texture/keyframes.h"
 
+#include <optional>
 #include <span>
 
 namespace tarsus {
+
+/// What is looked at most closely.
+struct ColorFocus {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  ///< scan frame
+  double radius_mm = 60.0;  ///< beyond, vertices lie farther apart in proportion to the distance
+};
 
 struct ColorMapOptions {
   double vertex_spacing_px =
       0.6;  ///< subdivide until edges are this part of a colour pixel's footprint
   int max_vertices = 600'000;
+  std::optional<ColorFocus> focus;   ///< gets its vertices first; none: all of the surface alike
   double visibility_depth_mm = 3.0;  ///< farther behind the model's first surface: hidden
   double max_view_angle_deg = 70.0;
   int best_views = 6;  ///< views averaged per vertex
@@ -40,7 +48,9 @@ struct ColoredSurface {
 /// Colours every vertex of the subdivided surface from the keyframes that see it; what none sees is
 /// marked `unseen` and filled from its neighbours, never black. Stopped during alignment, it goes
 /// on with what alignment had reached.
-/// @param surface  scan frame [mm]; need not be closed; its colours are the fallback
+/// @param surface  scan frame [mm]; need not be closed; its colours are the fallback. What this
+///                 function made before is taken back to its original vertices first: coloured
+///                 again from the same keyframes, a model stays the same to the last bit
 /// @return the subdivided mesh; original vertices keep their positions to the last bit and come
 /// first
 /// @errors KeyframesMissing, SurfaceEmpty, CameraFactsInvalid; Cancelled if stopped before it began

@@ -1,6 +1,7 @@
 #include "reconstruction/texture/subdivision.h"
 
 #include "reconstruction/base/require.h"
+#include "reconstruction/texture/take_back_midpoints.h"
 
 #include <queue>
 
@@ -80,6 +81,7 @@ class Splitter {
       surface_.mesh.faces.emplace_back(a, b, corner->idx());
     }
     surface_.mesh.faces.insert(surface_.mesh.faces.end(), refused_.begin(), refused_.end());
+    turnLowestFirst(surface_.mesh.faces);
     return std::move(surface_);
   }
 
