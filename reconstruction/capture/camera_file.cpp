@@ -106,6 +106,14 @@ json toJson(const Intrinsics& intrinsics) {
   return object;
 }
 
+json toJson(const DepthCorrection& correction) {
+  return {{"scale", correction.scale},
+          {"polynomial",
+           {{"c0", correction.polynomial[0]},
+            {"c1", correction.polynomial[1]},
+            {"c2", correction.polynomial[2]}}}};
+}
+
 }  // namespace
 
 Expected<RgbdCamera> readCamera(const std::filesystem::path& path) {
@@ -116,7 +124,9 @@ Expected<ScanFacts> readScanFacts(const std::filesystem::path& path) {
   return readJson(path, parseScanFacts);
 }
 
-Expected<void> writeCamera(const std::filesystem::path& path, const RgbdCamera& camera) {
+Expected<void> writeCamera(const std::filesystem::path& path,
+                           const RgbdCamera& camera,
+                           const ScanFacts& facts) {
   json transform = json::array();
   for (int i = 0; i < 4; ++i) {
     json row = json::array();
@@ -136,6 +146,12 @@ Expected<void> writeCamera(const std::filesystem::path& path, const RgbdCamera& 
   }
   if (!camera.serial.empty()) {
     object["serial"] = camera.serial;
+  }
+  if (facts.depth_correction) {
+    object["depth_correction"] = toJson(*facts.depth_correction);
+  }
+  if (facts.seconds_since_power_on) {
+    object["seconds_since_power_on"] = *facts.seconds_since_power_on;
   }
   return writeTextAtomically(path, object.dump(1) + "\n");
 }

@@ -24,6 +24,7 @@ struct ScanFacts {
 
 /// @errors FileUnwritable, DiskFull
 [[nodiscard]] Expected<void> writeCamera(const std::filesystem::path& path,
-                                         const RgbdCamera& camera);
+                                         const RgbdCamera& camera,
+                                         const ScanFacts& facts = {});
 
 }  // namespace tarsus

@@ -28,13 +28,22 @@ struct CameraOverrides {
     const CameraOverrides& overrides = {},
     const FrameContent& content = {});
 
+/// How frames are kept.
+struct ScanFolderFormat {
+  bool lossless_color = false;  ///< PNG; else JPEG, a sixth of the size
+  /// They come from a FrameSource: the camera's correction is in their depth and must not be
+  /// applied again when they are read.
+  bool depth_is_corrected = false;
+};
+
 /// Writes a scan folder frame by frame; `finish` writes the lists, so that an unfinished folder
 /// is not taken for a scan.
 class ScanFolderWriter {
  public:
   /// @errors FileUnwritable, DiskFull
   [[nodiscard]] static Expected<ScanFolderWriter> create(const std::filesystem::path& folder,
-                                                         const RgbdCamera& camera);
+                                                         const RgbdCamera& camera,
+                                                         const ScanFolderFormat& format = {});
   /// Depth is rounded to the camera's unit. May be called from several threads with different
   /// frame indices.
   [[nodiscard]] Expected<void> write(const RgbdFrame& frame);

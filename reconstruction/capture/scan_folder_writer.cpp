@@ -24,6 +24,7 @@ std::string timeText(std::chrono::microseconds time) {
 struct ScanFolderWriter::State {
   fs::path folder;
   RgbdCamera camera;
+  const char* color_suffix = ".jpg";
   std::mutex mutex;                                  ///< guards `written`
   std::map<int, std::chrono::microseconds> written;  ///< frame index -> time
 };
@@ -34,11 +35,17 @@ ScanFolderWriter& ScanFolderWriter::operator=(ScanFolderWriter&&) noexcept = def
 ScanFolderWriter::~ScanFolderWriter() = default;
 
 Expected<ScanFolderWriter> ScanFolderWriter::create(const fs::path& folder,
-                                                    const RgbdCamera& camera) {
+                                                    const RgbdCamera& camera,
+                                                    const ScanFolderFormat& format) {
   auto state = std::make_unique<State>();
   state->folder = folder;
   state->camera = camera;
-  if (auto written = writeCamera(folder / "camera.json", camera); !written) {
+  state->color_suffix = format.lossless_color ? ".png" : ".jpg";
+  ScanFacts facts;
+  if (format.depth_is_corrected) {
+    facts.depth_correction = DepthCorrection{};
+  }
+  if (auto written = writeCamera(folder / "camera.json", camera, facts); !written) {
     return tl::unexpected(written.error());
   }
   // The lists of an earlier scan here would name frames that are about to be replaced.
@@ -59,7 +66,8 @@ Expected<void> ScanFolderWriter::write(const RgbdFrame& frame) {
                                  state_->camera.depth_units_per_m,
                                  Flush::Later);
   if (written && frame.color.width() > 0) {
-    written = writeColorImage(state_->folder / "rgb" / (name + ".jpg"), frame.color, Flush::Later);
+    written = writeColorImage(
+        state_->folder / "rgb" / (name + state_->color_suffix), frame.color, Flush::Later);
   }
   if (written) {
     const std::scoped_lock lock(state_->mutex);
@@ -74,7 +82,7 @@ Expected<void> ScanFolderWriter::finish(const Trajectory& groundtruth) {
   std::string pairs;
   for (const auto& [index, timestamp] : state_->written) {
     const std::string time = timeText(timestamp);
-    const std::string rgb_entry = time + " rgb/" + time + ".jpg";
+    const std::string rgb_entry = time + " rgb/" + time + state_->color_suffix;
     const std::string depth_entry = time + " depth/" + time + ".png";
     rgb.append(rgb_entry).append("\n");
     depth.append(depth_entry).append("\n");

@@ -33,6 +33,21 @@ TEST(CameraFile, ReadsEveryFactInMillimetres) {
   EXPECT_EQ(camera->frames_per_s, 60.0);
 }
 
+TEST(CameraFile, WrittenFactsComeBack) {
+  const TemporaryFolder folder;
+  ScanFacts facts;
+  facts.depth_correction = DepthCorrection{.scale = 1.01, .polynomial = {}};
+  facts.depth_correction->polynomial[1] = {0.1, 0.2, 0.3, 0.4, 0.5, -0.6};
+  facts.seconds_since_power_on = 12.5;
+  ASSERT_TRUE(writeCamera(folder.path() / "camera.json", *parse(kWhole), facts));
+  const auto read = readScanFacts(folder.path() / "camera.json");
+  ASSERT_TRUE(read) << describe(read.error());
+  EXPECT_EQ(read->depth_correction, facts.depth_correction);
+  EXPECT_EQ(read->seconds_since_power_on, facts.seconds_since_power_on);
+  ASSERT_TRUE(writeCamera(folder.path() / "camera.json", *parse(kWhole)));
+  EXPECT_FALSE(readScanFacts(folder.path() / "camera.json")->depth_correction);
+}
+
 TEST(CameraFile, ShortDistortionMeansTheRestIsZero) {
   std::string text = kWhole;
   text.replace(text.find("[0.1, -0.2, 0.001, 0.002, 0.05]"), 31, "[0.1, -0.2]");
