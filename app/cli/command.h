@@ -30,6 +30,7 @@ CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const ch
 
 void addSimulate(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);
+void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);
 void addMeasure(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);

@@ -79,6 +79,7 @@ int parseAndRun(int argc, char** argv) {
   Command command;
   addSimulate(app, command);
   addReconstruct(app, command);
+  addTexture(app, command);
   addEvaluate(app, command);
   addMeasure(app, command);
   addReport(app, command);

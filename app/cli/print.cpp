@@ -48,6 +48,45 @@ std::string interval(const nlohmann::json& measured, const Row& row) {
   return number(intervals.at(row.key)[0], row) + " to " + number(intervals.at(row.key)[1], row);
 }
 
+void printStages(const std::vector<StageTime>& stages) {
+  for (const StageTime& stage : stages) {
+    std::printf("  %-14s %6.1f s", stage.name.c_str(), stage.seconds);
+    if (stage.frames_per_second > 0.0) {
+      std::printf("  (%.1f frames/s)", stage.frames_per_second);
+    }
+    std::printf("\n");
+  }
+}
+
+void printColors(const std::optional<double>& before,
+                 const std::optional<double>& after,
+                 const ColorAlignment& alignment) {
+  if (!after) {
+    return;
+  }
+  std::printf("Colours differ from the pictures by %.2f grey levels", *after);
+  if (before) {
+    std::printf(" (before: %.2f)", *before);
+  }
+  std::printf("; pictures aligned in %d + %d iterations\n",
+              alignment.rigid_small_sizes.iterations + alignment.rigid_full_size.iterations,
+              alignment.lattice.iterations);
+}
+
+void printCard(const std::optional<CardReading>& card) {
+  if (card && card->scale) {
+    std::printf("Colour card: lengths are %.4f +- %.4f of the card's own\n",
+                card->scale->measured_over_true,
+                card->scale->uncertainty);
+  }
+}
+
+void printNotes(const Warnings& warnings) {
+  for (const Warning& warning : warnings) {
+    std::printf("Note: %s\n", warning.text.c_str());
+  }
+}
+
 }  // namespace
 
 void printReconstruction(const Reconstruction& r, const std::filesystem::path& folder) {
@@ -61,24 +100,28 @@ void printReconstruction(const Reconstruction& r, const std::filesystem::path& f
               r.holes,
               r.keyframes.size(),
               100.0 * r.unseen_fraction);
-  for (const StageTime& stage : r.stages) {
-    std::printf("  %-10s %6.1f s", stage.name.c_str(), stage.seconds);
-    if (stage.frames_per_second > 0.0) {
-      std::printf("  (%.1f frames/s)", stage.frames_per_second);
-    }
-    std::printf("\n");
-  }
-  if (r.color_card && r.color_card->scale) {
-    std::printf("Colour card: lengths are %.4f +- %.4f of the card's own\n",
-                r.color_card->scale->measured_over_true,
-                r.color_card->scale->uncertainty);
-  }
-  for (const Warning& warning : r.warnings) {
-    std::printf("Note: %s\n", warning.text.c_str());
-  }
+  printStages(r.stages);
+  printColors(r.photometric_rmse_before, r.photometric_rmse_after, r.alignment);
+  printCard(r.color_card);
+  printNotes(r.warnings);
   for (const Warning& reason : r.refusal_reasons) {
     std::printf("Not fit for measurement: %s\n", reason.text.c_str());
   }
+  std::printf("Wrote %s\n", (folder / "model.ply").c_str());
+}
+
+void printRecoloring(const Recoloring& r, const std::filesystem::path& folder) {
+  const TexturedMesh& mesh = r.model.colored.model;
+  std::printf("%zu vertices, %zu faces; %zu keyframes, %.1f %% of the surface unseen\n",
+              mesh.mesh.vertices.size(),
+              mesh.mesh.faces.size(),
+              r.keyframes,
+              100.0 * unseenFraction(mesh));
+  printStages(r.stages);
+  printColors(
+      r.model.photometric_rmse_before, r.model.photometric_rmse_after, r.model.colored.alignment);
+  printCard(r.model.color_card);
+  printNotes(r.warnings);
   std::printf("Wrote %s\n", (folder / "model.ply").c_str());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measurement/wound/measure.h"
+#include "reconstruction/pipeline/recolor_folder.h"
 #include "reconstruction/pipeline/reconstruct.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,6 +12,8 @@ namespace tarsus {
 
 /// Human-readable results on stdout.
 void printReconstruction(const Reconstruction& reconstruction, const std::filesystem::path& folder);
+
+void printRecoloring(const Recoloring& recoloring, const std::filesystem::path& folder);
 
 /// A line for each quantity, with its interval.
 /// @param truth  an object with the same names to print beside, or null

@@ -1,3 +1,4 @@
+#include "app/cli/color_options.h"
 #include "app/cli/command.h"
 #include "app/cli/print.h"
 #include "app/version.h"
@@ -5,6 +6,7 @@
 #include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/pipeline/model_folder.h"
 #include "reconstruction/pipeline/reconstruct.h"
+#include "reconstruction/pipeline/textured_model.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,11 +21,9 @@ struct Arguments {
   std::filesystem::path trajectory;
   std::filesystem::path region;
   std::vector<double> intrinsics;
-  std::vector<double> grey_card;
   double depth_scale = 0.0;
-  double card_pitch_mm = 0.0;
   bool no_texture = false;
-  bool color_card = false;
+  ColorArguments color;
   ScanOptions options;
 };
 
@@ -39,19 +39,34 @@ CameraOverrides overridesOf(const Arguments& arguments) {
   return overrides;
 }
 
-void applyCard(Arguments& arguments) {
-  if (arguments.color_card) {
-    arguments.options.color_card = ColorCardOptions{.patch_pitch_mm = arguments.card_pitch_mm};
+void applyColors(Arguments& arguments) {
+  const ColoringOptions options = coloringOf(arguments.color, arguments.options.color);
+  arguments.options.color = options.color;
+  arguments.options.color_card = options.color_card;
+  arguments.options.grey_card = options.grey_card;
+}
+
+/// Before the folder is written: stopped here, nothing has changed there.
+Expected<void> writeAtlas(const Arguments& arguments, const Reconstruction& r, const Job& job) {
+  const auto options = atlasOf(arguments.color, arguments.options.color);
+  if (!options || r.keyframes.empty()) {
+    return {};
   }
-  if (arguments.grey_card.size() == 4) {
-    const auto& g = arguments.grey_card;
-    arguments.options.grey_card = GreyCardPlace{.center_mm = {g[0], g[1], g[2]}, .radius_mm = g[3]};
-  }
+  const auto atlas = writeTexturedModel(arguments.out,
+                                        {.mesh = &r.model.mesh,
+                                         .colors = r.model.colors,
+                                         .camera = &r.camera,
+                                         .keyframes = r.keyframes,
+                                         .placements = r.placements,
+                                         .gains = r.gains},
+                                        *options,
+                                        job);
+  return atlas ? Expected<void>() : tl::unexpected(atlas.error());
 }
 
 Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job& job) {
   arguments.options.texture = !arguments.no_texture;
-  applyCard(arguments);
+  applyColors(arguments);
   if (!arguments.trajectory.empty()) {
     auto trajectory = readTrajectory(arguments.trajectory);
     if (!trajectory) {
@@ -74,8 +89,10 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
   if (!reconstruction) {
     return tl::unexpected(reconstruction.error());
   }
-  auto written =
-      writeModelFolder(arguments.out, *reconstruction, arguments.options, TARSUS_VERSION);
+  auto written = writeAtlas(arguments, *reconstruction, job);
+  if (written) {
+    written = writeModelFolder(arguments.out, *reconstruction, arguments.options, TARSUS_VERSION);
+  }
   if (!written) {
     return tl::unexpected(written.error());
   }
@@ -83,24 +100,6 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
     printReconstruction(*reconstruction, arguments.out);
   }
   return toJson(*reconstruction, arguments.options, TARSUS_VERSION);
-}
-
-void addCardOptions(CLI::App& sub, Arguments& arguments) {
-  auto* card = sub.add_flag("--color-card",
-                            arguments.color_card,
-                            "White balance by a colour card of 24 patches that the scan shows");
-  sub.add_option("--card-pitch-mm",
-                 arguments.card_pitch_mm,
-                 "Middle to middle of the card's patches: checks the scan's scale")
-      ->check(CLI::Range(1.0, 100.0))
-      ->needs(card);
-  sub.add_option("--grey-card",
-                 arguments.grey_card,
-                 "White balance by a plain grey card at this place of the model, in mm")
-      ->delimiter(',')
-      ->expected(4)
-      ->excludes(card)
-      ->type_name("X,Y,Z,RADIUS");
 }
 
 }  // namespace
@@ -128,7 +127,8 @@ void addReconstruct(CLI::App& app, Command& command) {
   sub->add_option(
          "--region", arguments->region, "Keep only what lies in this box of the scan (JSON)")
       ->type_name("FILE");
-  addCardOptions(*sub, *arguments);
+  addColorOptions(*sub, "--texture-iterations", arguments->color);
+  sub->get_option("--atlas")->excludes("--no-texture");
   sub->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy in pixels")
       ->delimiter(',')
       ->expected(4)

@@ -32,19 +32,6 @@ constexpr std::array kWideFields{WideField{4.0, 28.0, 4},
 /// Refinement finds its neighbours within about three times this.
 constexpr double kLoopRefinementCanClose_mm = 1.0;
 
-TexturedMesh withFusedColors(ExtractedSurface surface) {
-  TexturedMesh model;
-  model.mesh = std::move(surface.mesh);
-  model.colors = std::move(surface.colors);
-  model.sigma_mm = std::move(surface.sigma_mm);
-  model.observations = std::move(surface.observations);
-  model.unseen.resize(model.mesh.vertices.size());
-  std::ranges::transform(model.observations, model.unseen.begin(), [](std::uint16_t frames) {
-    return static_cast<std::uint8_t>(frames == 0 ? 1 : 0);
-  });
-  return withHash(std::move(model));
-}
-
 void move(const RigidTransform& motion, ExtractedSurface& surface) {
   const Eigen::Isometry3f m = motion.cast<float>();
   for (Eigen::Vector3f& p : surface.mesh.vertices) {
@@ -353,62 +340,38 @@ class ScanReconstruction {
     return {};
   }
 
-  /// Without texture, or where no picture can serve, the surface keeps its fused colours.
+  /// Without texture, or where no picture can serve, the surface keeps its fused colours. A stop
+  /// ends the reconstruction, also where colouring could make do with what it had reached.
   Expected<void> color() {
     if (result_.keyframes.empty()) {
-      result_.model = withFusedColors(std::move(surface_));
+      result_.model = withOwnColors(std::move(surface_));
       return {};
     }
-    auto textured = colorSurface(surface_, result_.camera, result_.keyframes, options_.color, job_);
-    if (!textured) {
-      return tl::unexpected(textured.error());
+    auto model = colorModel(surface_,
+                            result_.camera,
+                            result_.keyframes,
+                            {options_.color, options_.color_card, options_.grey_card},
+                            job_);
+    if (!model) {
+      return tl::unexpected(model.error());
     }
-    const TexturedMesh plain = withFusedColors(std::move(surface_));
-    const auto rmse = [&](const TexturedMesh& model) {
-      return photometricRmse(
-          model, result_.camera, result_.keyframes, textured->placements, options_.color);
-    };
-    result_.photometric_rmse_before = rmse(plain);
-    result_.photometric_rmse_after = rmse(textured->model);
-    result_.model = std::move(textured->model);
+    if (job_.stopped()) {
+      return fail(ErrorCode::Cancelled);
+    }
+    result_.photometric_rmse_before = model->photometric_rmse_before;
+    result_.photometric_rmse_after = model->photometric_rmse_after;
+    result_.color_card = model->color_card;
+    std::ranges::copy(model->warnings, std::back_inserter(result_.warnings));
+    result_.model = std::move(model->colored.model);
+    result_.placements = std::move(model->colored.placements);
+    result_.gains = std::move(model->colored.gains);
+    result_.alignment = std::move(model->colored.alignment);
     clock_.end("color", 0);
-    return balanceWhite();
-  }
-
-  /// By a card in the scan, where one is said to be there. Without it the model is as good as ever.
-  Expected<void> balanceWhite() {
-    if (options_.color_card) {
-      auto found = findColorCard(result_.keyframes, result_.camera, *options_.color_card, job_);
-      if (!found) {
-        return tl::unexpected(found.error());
-      }
-      result_.color_card = *found;
-    } else if (options_.grey_card) {
-      auto reading = readGreyCard(result_.model, *options_.grey_card);
-      if (!reading) {
-        result_.warnings.push_back(
-            {"grey_card_unread", "No white balance: " + reading.error().detail + "."});
-        return {};
-      }
-      result_.color_card = *reading;
-    } else {
-      return {};
-    }
-    if (result_.color_card) {
-      result_.model = whiteBalanced(std::move(result_.model), result_.color_card->white_gain);
-    } else {
-      result_.warnings.push_back(
-          {"color_card_missing",
-           "No keyframe shows a colour card; the colours are as the camera gave them."});
-    }
-    clock_.end("color card", 0);
     return {};
   }
 
   Reconstruction finished() {
-    const auto unseen = std::ranges::count(result_.model.unseen, std::uint8_t{1});
-    const auto vertices = std::max<std::size_t>(1, result_.model.unseen.size());
-    result_.unseen_fraction = static_cast<double>(unseen) / static_cast<double>(vertices);
+    result_.unseen_fraction = unseenFraction(result_.model);
     result_.refusal_reasons = refusalReasons(result_);
     result_.stages = clock_.stages();
     return std::move(result_);

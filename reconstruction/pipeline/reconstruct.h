@@ -6,11 +6,10 @@
 #include "reconstruction/fusion/pose_refinement.h"
 #include "reconstruction/fusion/surface_refinement.h"
 #include "reconstruction/pipeline/background.h"
+#include "reconstruction/pipeline/coloring.h"
 #include "reconstruction/pipeline/hole_closing.h"
 #include "reconstruction/pipeline/region_of_interest.h"
 #include "reconstruction/scene/mesh.h"
-#include "reconstruction/texture/color_card.h"
-#include "reconstruction/texture/color_map.h"
 #include "reconstruction/texture/keyframes.h"
 
 #include <functional>
@@ -55,6 +54,9 @@ struct Reconstruction {
   RgbdCamera camera;
   KeyframeChoice keyframe_choice;
   std::vector<Keyframe> keyframes;
+  std::vector<PicturePlacement> placements;  ///< of the keyframes, as alignment left them
+  std::vector<ColorGain> gains;              ///< of the keyframes, white balance included
+  ColorAlignment alignment;
   std::optional<CardReading> color_card;  ///< its white gain is in the model's colours
   int frames_total = 0;
   int frames_tracked = 0;

@@ -2,9 +2,8 @@
 
 #include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/image_file.h"
-#include "reconstruction/capture/scan_folder.h"
-#include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/pipeline/meshlab_project.h"
+#include "reconstruction/pipeline/stored_keyframes.h"
 #include "reconstruction/texture/undo_subdivision.h"
 
 #include <algorithm>
@@ -13,7 +12,6 @@ namespace tarsus {
 namespace {
 
 constexpr const char* kPicture = "textured.png";
-constexpr const char* kKeyframes = "keyframes";
 /// Times are written with six decimals.
 constexpr std::chrono::microseconds kSameTime{2};
 
@@ -57,13 +55,13 @@ Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
   if (source.mesh->faces.empty()) {
     return fail(ErrorCode::SurfaceEmpty, "no surface to make a textured model of");
   }
-  std::vector<KeyframeView> rendered;
-  if (source.views.empty()) {
-    auto views = renderViews(*source.mesh, *source.camera, source.keyframes, options.color);
-    if (!views) {
-      return tl::unexpected(views.error());
-    }
-    rendered = std::move(*views);
+  const auto views =
+      source.placements.empty()
+          ? renderViews(*source.mesh, *source.camera, source.keyframes, options.color)
+          : renderViews(
+                *source.mesh, *source.camera, source.keyframes, source.placements, options.color);
+  if (!views) {
+    return tl::unexpected(views.error());
   }
   std::optional<SmallerMesh> smaller;
   if (options.undo_subdivision) {
@@ -71,7 +69,7 @@ Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
   }
   auto atlas = makeTextureAtlas({.mesh = smaller ? &smaller->mesh : source.mesh,
                                  .colors = smaller ? smaller->colors : source.colors,
-                                 .views = source.views.empty() ? rendered : source.views,
+                                 .views = *views,
                                  .keyframes = source.keyframes,
                                  .gains = source.gains},
                                 options.atlas,
@@ -89,8 +87,10 @@ Expected<TextureAtlas> writeTexturedModel(const std::filesystem::path& folder,
 
 Expected<void> writeModelProject(const std::filesystem::path& folder,
                                  const RgbdCamera& camera,
-                                 std::span<const Keyframe> keyframes) {
-  const auto files = listFrames(folder / kKeyframes);
+                                 std::span<const Keyframe> keyframes,
+                                 std::span<const PicturePlacement> placements) {
+  TARSUS_REQUIRE(placements.size() == keyframes.size(), "one placement for each keyframe");
+  const auto files = listFrames(folder / kKeyframesFolder);
   if (!files) {
     return tl::unexpected(files.error());
   }
@@ -100,52 +100,16 @@ Expected<void> writeModelProject(const std::filesystem::path& folder,
       return std::chrono::abs(k.frame.timestamp - file.timestamp) <= kSameTime;
     });
     if (found != keyframes.end() && !file.color.empty()) {
-      rasters.push_back(
-          {.picture = file.color.lexically_relative(folder),
-           .scan_from_color = found->scan_from_camera * camera.color_from_depth.inverse()});
+      const auto k = static_cast<std::size_t>(found - keyframes.begin());
+      rasters.push_back({.picture = file.color.lexically_relative(folder),
+                         .scan_from_color = placements[k].color_from_scan.inverse()});
     }
   }
   if (rasters.empty()) {
     return fail(ErrorCode::KeyframesMissing,
-                (folder / kKeyframes).string() + " holds no picture of the keyframes");
+                (folder / kKeyframesFolder).string() + " holds no picture of the keyframes");
   }
   return writeMeshlabProject(folder / "model.mlp", "model.ply", camera.color, rasters);
-}
-
-Expected<StoredKeyframes> readStoredKeyframes(const std::filesystem::path& folder, const Job& job) {
-  const auto source = openScanFolder(folder / kKeyframes);
-  if (!source) {
-    return tl::unexpected(source.error());
-  }
-  const auto poses = readTrajectory(folder / kKeyframes / "groundtruth.txt");
-  if (!poses) {
-    return tl::unexpected(poses.error());
-  }
-  StoredKeyframes stored{.camera = (*source)->camera()};
-  while (!job.stopped()) {
-    auto next = (*source)->next();
-    if (!next) {
-      return tl::unexpected(next.error());
-    }
-    if (!*next) {
-      break;
-    }
-    RgbdFrame& frame = **next;
-    const auto pose = poseAt(*poses, frame.timestamp, kSameTime);
-    if (pose && frame.color.width() > 0) {
-      const double blur = blurMeasure(frame.color);
-      stored.keyframes.push_back(
-          {.frame = std::move(frame), .scan_from_camera = *pose, .blur = blur});
-    }
-  }
-  if (job.stopped()) {
-    return fail(ErrorCode::Cancelled);
-  }
-  if (stored.keyframes.empty()) {
-    return fail(ErrorCode::KeyframesMissing,
-                (folder / kKeyframes).string() + " holds no picture with a pose");
-  }
-  return stored;
 }
 
 }  // namespace tarsus

@@ -26,8 +26,9 @@ struct TexturedModelSource {
   std::span<const Rgb8> colors;        ///< #V for what no keyframe sees, or empty
   const RgbdCamera* camera = nullptr;
   std::span<const Keyframe> keyframes;
-  std::span<const KeyframeView> views;  ///< of the keyframes; empty: rendered here
-  std::span<const ColorGain> gains;     ///< of the keyframes; empty: solved here
+  /// Of the keyframes, as alignment left them; empty: as their poses place them.
+  std::span<const PicturePlacement> placements;
+  std::span<const ColorGain> gains;  ///< of the keyframes; empty: solved here
 };
 
 /// Writes the textured model beside model.ply: textured.png first, what names it afterwards.
@@ -40,22 +41,13 @@ struct TexturedModelSource {
                                                         const Job& job);
 
 /// Writes model.mlp: model.ply and the pictures of keyframes/ with their cameras. Cheap.
-/// @param keyframes  those that keyframes/ holds; matched by their time
+/// @param keyframes   those that keyframes/ holds; matched by their time
+/// @param placements  of the keyframes, as alignment left them: a warp cannot be said there
 /// @errors FileMissing, ScanEmpty, FileUnreadable (keyframes/), KeyframesMissing, FileUnwritable,
 ///         DiskFull
 [[nodiscard]] Expected<void> writeModelProject(const std::filesystem::path& folder,
                                                const RgbdCamera& camera,
-                                               std::span<const Keyframe> keyframes);
-
-/// Keyframes as a model folder keeps them.
-struct StoredKeyframes {
-  RgbdCamera camera;
-  std::vector<Keyframe> keyframes;
-};
-
-/// Reads keyframes/ of a model folder, with the poses of its groundtruth.txt.
-/// @errors those of openScanFolder and readTrajectory, KeyframesMissing, Cancelled
-[[nodiscard]] Expected<StoredKeyframes> readStoredKeyframes(const std::filesystem::path& folder,
-                                                            const Job& job);
+                                               std::span<const Keyframe> keyframes,
+                                               std::span<const PicturePlacement> placements);
 
 }  // namespace tarsus
