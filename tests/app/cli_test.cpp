@@ -1,41 +1,19 @@
 // The command line as a user meets it: exit codes, sentences, JSON, nothing half-written.
 #include "reconstruction/scene/ply.h"
+#include "tests/app/cli_run.h"
 #include "tests/reconstruction/capture/scan_fixture.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
+#include <iterator>
 
 namespace tarsus {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< stdout and stderr
-};
-
-Outcome runShell(const std::string& command) {
-  Outcome run;
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-    run.output.append(buffer.data(), n);
-  }
-  const int status = ::pclose(pipe);
-  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return run;
-}
-
-Outcome cli(const std::string& arguments) {
-  return runShell(std::string(TARSUS_CLI) + " " + arguments);
-}
 
 nlohmann::json readJson(const fs::path& path) {
   return nlohmann::json::parse(std::ifstream(path), nullptr, false);
@@ -65,7 +43,7 @@ class Cli : public ::testing::Test {
   }
   /// Runs, expects exit 1, and that the JSON names `code` and the sentence stands on stderr.
   void expectRefused(const std::string& arguments, const std::string& code) const {
-    const Outcome run = cli(arguments + " --json " + file("result.json"));
+    const CliRun run = cli(arguments + " --json " + file("result.json"));
     EXPECT_EQ(run.exit_code, 1) << run.output;
     const auto json = readJson(file("result.json"));
     ASSERT_TRUE(json.is_object()) << run.output;
@@ -81,8 +59,8 @@ class Cli : public ::testing::Test {
 TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_EQ(cli("--help").exit_code, 0);
   for (const std::string command :
-       {"simulate", "reconstruct", "evaluate", "measure", "report", "demo"}) {
-    const Outcome run = cli(command + " --help");
+       {"simulate", "reconstruct", "texture", "evaluate", "measure", "report", "demo"}) {
+    const CliRun run = cli(command + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_NE(run.output.find("--json"), std::string::npos) << run.output;
   }
@@ -101,6 +79,13 @@ TEST_F(Cli, WrongUsageIsTwo) {
                                       "simulate x --frames 0",
                                       "reconstruct a b --voxel-mm 0",
                                       "reconstruct a b --intrinsics 1,2,3",
+                                      "reconstruct a b --atlas",
+                                      "reconstruct a b --no-texture --atlas obj",
+                                      "texture",
+                                      "texture a --iterations -1",
+                                      "texture a --atlas png",
+                                      "texture a --focus 1,2",
+                                      "texture a --card-pitch-mm 12",
                                       "evaluate a.ply b.ply --align maybe",
                                       "measure m.ply --outline o.json --toe 1,2,3"}) {
     EXPECT_EQ(cli(arguments).exit_code, 2) << arguments;
@@ -177,7 +162,7 @@ TEST_F(Cli, NothingThatIsReadIsOverwritten) {
                                            file("outline.json") + " --json " + file("outline.json"),
                                        "evaluate " + file("square.ply") + " " + file("square.ply") +
                                            " --heatmap " + file("square.ply")}) {
-    const Outcome run = cli(arguments);
+    const CliRun run = cli(arguments);
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_NE(run.output.find("would be overwritten"), std::string::npos) << run.output;
   }
@@ -202,8 +187,8 @@ TEST_F(Cli, ImpossibleValuesAreRefused) {
 
 TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
   writeSquare(file("square.ply"));
-  const Outcome run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
-                          " --quiet --json " + file("result.json"));
+  const CliRun run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                         " --quiet --json " + file("result.json"));
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const auto json = readJson(file("result.json"));
   EXPECT_LT(json.at("hausdorff").get<double>(), 1e-5);
@@ -212,16 +197,15 @@ TEST_F(Cli, EvaluateOfAMeshWithItselfIsZero) {
 
 TEST_F(Cli, JsonToStdoutIsNothingButJson) {
   writeSquare(file("square.ply"));
-  const Outcome run =
-      cli("evaluate " + file("square.ply") + " " + file("square.ply") + " --json -");
+  const CliRun run = cli("evaluate " + file("square.ply") + " " + file("square.ply") + " --json -");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_TRUE(nlohmann::json::parse(run.output, nullptr, false).is_object()) << run.output;
 }
 
 TEST_F(Cli, AFullDeviceIsSaid) {
   writeSquare(file("square.ply"));
-  const Outcome run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
-                          " --quiet --json /dev/full");
+  const CliRun run = cli("evaluate " + file("square.ply") + " " + file("square.ply") +
+                         " --quiet --json /dev/full");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
   EXPECT_TRUE(fs::is_character_file("/dev/full"));  // not replaced by a file
@@ -235,12 +219,26 @@ TEST_F(Cli, AFullDiskLeavesNothingHalfWritten) {
   if (runShell(in_namespace + mount + "true'").exit_code != 0) {
     GTEST_SKIP() << "no small disk can be mounted here";
   }
-  const Outcome run =
+  const CliRun run =
       runShell(in_namespace + mount + TARSUS_CLI + " simulate " + disk +
                "/scan --frames 3; echo exit $?; echo LEFT; find " + disk + " -name \".*part*\"'");
   EXPECT_NE(run.output.find("disk is full"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("exit 1"), std::string::npos) << run.output;
   EXPECT_EQ(run.output.find("part", run.output.find("LEFT")), std::string::npos) << run.output;
+}
+
+TEST_F(Cli, TextureRefusesWhatIsNoModelFolder) {
+  const std::string command = "texture " + file("model");
+  expectRefused(command, "file_missing");
+  fs::create_directory(file("model"));
+  writeText(file("model/model.ply"), "ply\nformat ascii 1.0\nend_header\n");
+  expectRefused(command, "mesh_invalid");
+  writeSquare(file("model/model.ply"));
+  expectRefused(command, "file_missing");
+  EXPECT_NE(cli(command).output.find("reconstruct, without --no-texture"), std::string::npos);
+  writeText(file("model/reconstruction.json"), "no json");
+  expectRefused(command, "file_unreadable");
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("model")), fs::directory_iterator()), 2);
 }
 
 TEST_F(Cli, AnUnwritableFolderIsSaid) {
