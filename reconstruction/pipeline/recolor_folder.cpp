@@ -20,7 +20,8 @@ using nlohmann::json;
 
 constexpr const char* kRecord = "reconstruction.json";
 /// Said by this stage alone: an earlier run's no longer hold.
-constexpr std::array kOwnWarnings{"texture_stopped", "color_card_missing", "grey_card_unread"};
+constexpr std::array kOwnWarnings{
+    "texture_stopped", "color_card_missing", "grey_card_unread", "atlas_outdated"};
 
 Expected<TexturedMesh> readModel(const fs::path& folder) {
   auto model = readPly(folder / "model.ply");
@@ -166,6 +167,12 @@ class FolderRecoloring {
   /// Also after a stop: it ends what would go on improving, not what was asked for.
   Expected<void> writeAtlas() {
     if (!options_.atlas) {
+      std::error_code ignored;
+      if (fs::exists(folder_ / "textured.png", ignored)) {
+        result_.warnings.push_back(
+            {"atlas_outdated",
+             "textured.png and its model show earlier colours; --atlas renews them."});
+      }
       return {};
     }
     const ColoredSurface& colored = result_.model.colored;

@@ -113,6 +113,7 @@ TEST_F(CliTexture, WritesTheAtlasThatItsFilesName) {
   EXPECT_NE(textOf("textured.ply").find("TextureFile textured.png"), std::string::npos);
   EXPECT_GT(textOf("textured.png").size(), 10'000U);
   EXPECT_TRUE(record().at("alignment").is_null());
+  EXPECT_NE(texture().output.find("earlier colours"), std::string::npos);
 }
 
 TEST_F(CliTexture, MeshLabsCamerasAreWhereAlignmentPutThem) {
