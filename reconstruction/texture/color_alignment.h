@@ -21,7 +21,7 @@ struct ColorAlignmentOptions {
   /// Poses may leave what their depth says by so much [mm, RMS along the surface's normals].
   double anchor_mm = 0.1;
   /// Without depth, they may leave where they begin by so much [mm].
-  double loose_anchor_mm = 3.0;
+  double loose_anchor_mm = 10.0;
   double lattice_offset_px = 1.5;  ///< standard deviation expected of an offset ...
   double lattice_bend_px = 0.25;   ///< ... and of its difference to the neighbour's
   /// A phase ends when an iteration takes less than this share off the sum of squares; < 0: all
