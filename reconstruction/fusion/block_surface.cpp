@@ -1,7 +1,7 @@
 #include "reconstruction/fusion/block_surface.h"
 
-#include "reconstruction/fusion/marching_cubes_table.h"
 #include "reconstruction/base/vector_code.h"
+#include "reconstruction/fusion/marching_cubes_table.h"
 
 #include <algorithm>
 #include <bit>
