@@ -28,11 +28,34 @@ TARSUS_INLINE void store(const Lanes& from, LaneArray& to) {
 TARSUS_INLINE void gather(const float* table,
                           const std::array<std::int32_t, kLanes>& index,
                           Lanes& to) {
-  LaneArray values;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    values[lane] = table[index[lane]];
-  }
-  load(values, to);
+  to = Lanes{table[index[0]],
+             table[index[1]],
+             table[index[2]],
+             table[index[3]],
+             table[index[4]],
+             table[index[5]],
+             table[index[6]],
+             table[index[7]]};
+}
+/// Each number and the one after it, both by one load.
+TARSUS_INLINE void gatherPairs(const float* table,
+                               const std::array<std::int32_t, kLanes>& index,
+                               Lanes& first,
+                               Lanes& second) {
+  const auto pair = [&](std::size_t lane) {
+    std::int64_t bits;
+    std::memcpy(&bits, table + index[lane], sizeof(bits));
+    return bits;
+  };
+  using Pairs = std::int64_t __attribute__((vector_size(32)));
+  const Pairs low{pair(0), pair(1), pair(2), pair(3)};
+  const Pairs high{pair(4), pair(5), pair(6), pair(7)};
+  Lanes a;
+  Lanes b;
+  std::memcpy(&a, &low, sizeof(a));
+  std::memcpy(&b, &high, sizeof(b));
+  first = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+  second = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
 }
 /// The lanes one after the other, always in the same order.
 TARSUS_INLINE float sumOf(const Lanes& lanes) {

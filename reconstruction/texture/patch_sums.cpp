@@ -23,10 +23,8 @@ TARSUS_INLINE void sampleImage(const Image<float>& image, Lanes u, Lanes v, Sigh
   Lanes upper_right;
   Lanes lower_left;
   Lanes lower_right;
-  gather(pixels, index, upper_left);
-  gather(pixels + 1, index, upper_right);
-  gather(pixels + image.width(), index, lower_left);
-  gather(pixels + image.width() + 1, index, lower_right);
+  gatherPairs(pixels, index, upper_left, upper_right);
+  gatherPairs(pixels + image.width(), index, lower_left, lower_right);
   const Lanes a = u - __builtin_convertvector(left, Lanes);
   const Lanes b = v - __builtin_convertvector(top, Lanes);
   const Lanes du_upper = upper_right - upper_left;
@@ -70,7 +68,7 @@ TARSUS_INLINE void bend(const BentCell& cell, Lanes& u, Lanes& v, SightSample& s
   }
 }
 
-TARSUS_VECTOR_CODE
+TARSUS_MANY_SUMS
 void sampleRun(const SightPatch& patch,
                const SightRun& run,
                const PlacedImage& image,
@@ -110,13 +108,12 @@ TARSUS_INLINE void robustWeight(const Lanes& residual, float outlier, Lanes& wei
   weight = near * near;
 }
 
-TARSUS_VECTOR_CODE
+TARSUS_MANY_SUMS
 void addWeighted(const SightPatch& patch,
                  const SightSample* samples,
                  const float* centers,
                  float outlier,
-                 float* weights,
-                 float* sums) {
+                 WeightedSum* sums) {
   for (std::size_t i = 0; i < patch.blocks.size(); ++i) {
     const SightBlock& block = patch.blocks[i];
     Lanes weight;
@@ -136,8 +133,9 @@ void addWeighted(const SightPatch& patch,
     store(weight, own_weight);
     store(weight * value, own_value);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      weights[block.vertex[lane]] += own_weight[lane];
-      sums[block.vertex[lane]] += own_value[lane];
+      WeightedSum& sum = sums[block.vertex[lane]];
+      sum.weight += own_weight[lane];
+      sum.value += own_value[lane];
     }
   }
 }
@@ -168,7 +166,7 @@ TARSUS_INLINE void restOf(const SightBlock& block,
   rest.loss = weight * rest.residual * rest.residual * near;
 }
 
-TARSUS_VECTOR_CODE
+TARSUS_MANY_SUMS
 void sumRigidRun(const SightPatch& patch,
                  const SightRun& run,
                  const PlacedImage& image,
@@ -219,7 +217,7 @@ void sumRigidRun(const SightPatch& patch,
   }
 }
 
-TARSUS_VECTOR_CODE
+TARSUS_MANY_SUMS
 void sumCellRun(const SightPatch& patch,
                 const SightRun& run,
                 const SightSample* samples,
@@ -279,12 +277,11 @@ void PatchSums::average(const SightPatch& patch,
                         std::span<float> wanted) {
   const std::size_t count = patch.x_mm.size();
   const auto mean = [&](const float* around) {
-    weight_sums_.assign(count, 0.0F);
-    std::ranges::fill(wanted, 0.0F);
-    addWeighted(
-        patch, samples_.data(), around, outlier_levels_, weight_sums_.data(), wanted.data());
+    weighted_sums_.assign(count, {});
+    addWeighted(patch, samples_.data(), around, outlier_levels_, weighted_sums_.data());
     for (std::size_t i = 0; i < count; ++i) {
-      wanted[i] = weight_sums_[i] > 0.0F ? wanted[i] / weight_sums_[i] : 0.0F;
+      const auto& [weight, value] = weighted_sums_[i];
+      wanted[i] = weight > 0.0F ? value / weight : 0.0F;
     }
   };
   if (centers.empty()) {

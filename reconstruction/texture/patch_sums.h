@@ -50,6 +50,11 @@ struct alignas(32) SightSample {
   std::array<float, kLanes> right, down;    ///< share of the cell's right and lower nodes
 };
 
+struct WeightedSum {
+  float weight = 0.0F;
+  float value = 0.0F;
+};
+
 /// Works through one patch: its vertices' grey levels from all pictures, and from them what each
 /// picture lacks. Room that is used again from patch to patch.
 class PatchSums {
@@ -75,7 +80,7 @@ class PatchSums {
  private:
   float outlier_levels_ = 16.0F;
   std::vector<SightSample> samples_;
-  std::vector<float> weight_sums_;
+  std::vector<WeightedSum> weighted_sums_;
   std::vector<float> plain_means_;
 };
 

@@ -8,7 +8,7 @@
 namespace tarsus {
 namespace {
 
-constexpr std::size_t kPatchVertices = 512;  // their lines of sight fit the second-level cache
+constexpr std::size_t kPatchVertices = 3072;  // measured: fewer need more of each image twice
 
 /// Spreads the lowest 21 bits, two free places after each.
 std::uint64_t spread(std::uint64_t x) {

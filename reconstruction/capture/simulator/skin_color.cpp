@@ -93,7 +93,8 @@ double creases(const Vector3d& p) {
   return dark;
 }
 
-/// A cross of 1.2 mm strokes on the arch and two dots beside the heel: landmarks drawn by the nurse.
+/// A cross of 1.2 mm strokes on the arch and two dots beside the heel: landmarks drawn by the
+/// nurse.
 double penMarks(const Vector3d& p) {
   const double u = (p.x() - 118.0 + p.y() + 9.0) * 0.7071;
   const double v = (p.x() - 118.0 - p.y() - 9.0) * 0.7071;
