@@ -1,6 +1,7 @@
 #include "reconstruction/pipeline/coloring.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tarsus {
 namespace {
@@ -57,11 +58,40 @@ int iterationsOf(const ColorMapOptions& options) {
                        : 0;
 }
 
+namespace {
+
+/// Places that cannot be meant are refused before the long work.
+Expected<void> checkPlaces(const ExtractedSurface& surface, const ColoringOptions& options) {
+  if (options.grey_card &&
+      !(options.grey_card->center_mm.allFinite() && std::isfinite(options.grey_card->radius_mm) &&
+        options.grey_card->radius_mm > 0.0)) {
+    return fail(ErrorCode::BadOption,
+                "the grey card needs a place of the model and a radius above 0, all in mm");
+  }
+  if (options.color.focus) {
+    const Eigen::Vector3f center = options.color.focus->center_mm.cast<float>();
+    const auto reach = static_cast<float>(options.color.focus->radius_mm);
+    const bool near = std::ranges::any_of(surface.mesh.vertices, [&](const Eigen::Vector3f& p) {
+      return (p - center).norm() <= reach;
+    });
+    if (!near) {
+      return fail(ErrorCode::BadOption,
+                  "the focus is nowhere near the model; give a place of the model, in mm");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Expected<ColoredModel> colorModel(const ExtractedSurface& surface,
                                   const RgbdCamera& camera,
                                   std::span<const Keyframe> keyframes,
                                   const ColoringOptions& options,
                                   const Job& job) {
+  if (auto checked = checkPlaces(surface, options); !checked) {
+    return tl::unexpected(checked.error());
+  }
   auto colored = colorSurface(surface, camera, keyframes, options.color, job);
   if (!colored) {
     return tl::unexpected(colored.error());

@@ -35,7 +35,7 @@ struct ColoredModel {
 /// Colours the surface (colorSurface) and balances its white by a card where one is said to be;
 /// without it the model is as good as ever. Stopped during alignment, it goes on with what
 /// alignment had reached.
-/// @errors those of colorSurface
+/// @errors those of colorSurface; BadOption (a focus off the model, an impossible grey card)
 [[nodiscard]] Expected<ColoredModel> colorModel(const ExtractedSurface& surface,
                                                 const RgbdCamera& camera,
                                                 std::span<const Keyframe> keyframes,

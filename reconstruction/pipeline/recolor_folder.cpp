@@ -196,14 +196,17 @@ class FolderRecoloring {
     const ColoredSurface& colored = result_.model.colored;
     result_.stages = clock_.stages();
     noteInRecord(version);
-    auto written = writeColorPoses(folder_, stored_.keyframes, colored.placements);
+    // The largest first: where the disk is full, nothing else has changed yet.
+    auto written = writePly(folder_ / "model.ply", colored.model);
     if (written) {
-      written = writeModelProject(folder_, stored_.camera, stored_.keyframes, colored.placements);
+      written = writeTextAtomically(folder_ / kRecord, record_.dump(2) + "\n");
     }
     if (written) {
-      written = writePly(folder_ / "model.ply", colored.model);
+      written = writeColorPoses(folder_, stored_.keyframes, colored.placements);
     }
-    return written ? writeTextAtomically(folder_ / kRecord, record_.dump(2) + "\n") : written;
+    return written
+               ? writeModelProject(folder_, stored_.camera, stored_.keyframes, colored.placements)
+               : written;
   }
 
   void noteInRecord(std::string_view version) {

@@ -32,6 +32,11 @@ SmallerMesh withoutSubdivision(const TexturedModelSource& source) {
 Expected<void> writeFiles(const std::filesystem::path& folder,
                           const TextureAtlas& atlas,
                           const TexturedModelOptions& options) {
+  // An earlier model's places mean nothing in the new picture: better none than a wrong one.
+  for (const char* earlier : {"textured.obj", "textured.mtl", "textured.ply"}) {
+    std::error_code ignored;
+    std::filesystem::remove(folder / earlier, ignored);
+  }
   auto written = writeColorImage(folder / kPicture, atlas.image);
   if (written && options.with_ply) {
     written = writeTexturedPly(folder / "textured.ply", atlas.model, kPicture);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tarsus {
 namespace {
@@ -82,6 +83,24 @@ TEST_F(RecolorFolder, OtherOptionsAndBackGiveTheSameBits) {
   EXPECT_EQ(first->mesh.vertices, again->mesh.vertices);
   EXPECT_EQ(first->mesh.faces, again->mesh.faces);
   EXPECT_EQ(first->sigma_mm, again->sigma_mm);
+}
+
+TEST_F(RecolorFolder, RefusesPlacesThatCannotBeMeantAndLeavesTheModel) {
+  ASSERT_TRUE(recolor());
+  const std::string before = bytesOfModel();
+  const RecoloringOptions usual = options_;
+  options_.coloring.color.focus = ColorFocus{.center_mm = {1e6, 1e6, 1e6}};
+  const auto far = recolor();
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error().code, ErrorCode::BadOption);
+  for (const double radius_mm : {0.0, -5.0, std::nan("")}) {
+    options_ = usual;
+    options_.coloring.grey_card = GreyCardPlace{.center_mm = {0, 0, 0}, .radius_mm = radius_mm};
+    const auto card = recolor();
+    ASSERT_FALSE(card) << radius_mm;
+    EXPECT_EQ(card.error().code, ErrorCode::BadOption);
+  }
+  EXPECT_TRUE(bytesOfModel() == before);
 }
 
 TEST_F(RecolorFolder, TheFocusIsFinerThanTheRest) {
