@@ -5,6 +5,7 @@
 #include "measurement/wound/reference_skin.h"
 #include "reconstruction/scene/mesh.h"
 
+#include <span>
 #include <vector>
 
 namespace tarsus {
@@ -43,5 +44,8 @@ struct BedDepths {
   int deepest = 0;      ///< vertex
 };
 [[nodiscard]] BedDepths measureDepths(const Bed& bed, const ReferenceSkin& skin);
+
+/// Area-weighted 99th percentile of the depths of the bed's vertices, from four samples a face.
+[[nodiscard]] double percentile99(const Bed& bed, std::span<const double> depth_mm);
 
 }  // namespace tarsus

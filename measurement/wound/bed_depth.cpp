@@ -67,8 +67,9 @@ Volumes volumesOf(const std::array<Post, 3>& t) {
   return volumes;
 }
 
-/// Area-weighted 99th percentile of the depth, from four samples a face.
-double percentile99(const Bed& bed, const std::vector<ReferenceSkin::Foot>& feet) {
+}  // namespace
+
+double percentile99(const Bed& bed, std::span<const double> depth_mm) {
   std::vector<std::pair<double, double>> samples;  // depth, area
   samples.reserve(bed.faces.size() * 4);
   double all = 0.0;
@@ -77,7 +78,7 @@ double percentile99(const Bed& bed, const std::vector<ReferenceSkin::Foot>& feet
                         (bed.vertices[f[1]] - bed.vertices[f[0]])
                             .cross(bed.vertices[f[2]] - bed.vertices[f[0]])
                             .norm();
-    const std::array d{feet[f[0]].depth_mm, feet[f[1]].depth_mm, feet[f[2]].depth_mm};
+    const std::array d{depth_mm[f[0]], depth_mm[f[1]], depth_mm[f[2]]};
     const double mean = (d[0] + d[1] + d[2]) / 3.0;
     samples.emplace_back(mean, area);
     for (int k = 0; k < 3; ++k) {
@@ -95,8 +96,6 @@ double percentile99(const Bed& bed, const std::vector<ReferenceSkin::Foot>& feet
   }
   return 0.0;
 }
-
-}  // namespace
 
 BedDepths measureDepths(const Bed& bed, const ReferenceSkin& skin) {
   BedDepths depths;
@@ -130,7 +129,12 @@ BedDepths measureDepths(const Bed& bed, const ReferenceSkin& skin) {
       depths.deepest = i;
     }
   }
-  depths.p99_mm = percentile99(bed, depths.feet);
+  std::vector<double> depth_mm;
+  depth_mm.reserve(depths.feet.size());
+  for (const auto& foot : depths.feet) {
+    depth_mm.push_back(foot.depth_mm);
+  }
+  depths.p99_mm = percentile99(bed, depth_mm);
   return depths;
 }
 

@@ -1,6 +1,7 @@
 #include "measurement/wound/measure.h"
 
 #include "measurement/wound/bed.h"
+#include "measurement/wound/noise_trials.h"
 #include "measurement/wound/quantities.h"
 #include "measurement/wound/reference_skin.h"
 #include "measurement/wound/skin_mesh.h"
@@ -79,7 +80,7 @@ class WoundMeasurer {
     for (const auto& p : points) {
       middle += p / static_cast<double>(points.size());
     }
-    return fitReferenceSkin(skinSamples(foot_, site_, shift_mm, options_), middle);
+    return fitReferenceSkin(skinSamples(foot_, site_, shift_mm, options_), middle, options_.skin);
   }
 
   void fillNumbers() {
@@ -172,7 +173,7 @@ class WoundMeasurer {
     const auto outer = withOutline(options_.outline_half_width_mm);
     const auto skin_in = withSkinCurve(-options_.skin_curve_half_width_mm);
     const auto skin_out = withSkinCurve(options_.skin_curve_half_width_mm);
-    const Quantities model = modelDeviations(bed_, depths_, skin_, values_);
+    const ModelSpread model = tryNoise(bed_, depths_, skin_, values_);
     if (!inner || !outer || !skin_in || !skin_out) {
       warn("interval_incomplete",
            "An interval lacks a part: outline or skin curve could not be moved on this surface.");
@@ -188,9 +189,12 @@ class WoundMeasurer {
         skin = std::max(skin, moved ? std::abs(*moved - value) : 0.0);
       }
       spread.add(skin, skin);
-      const double own = 1.96 * model.at(name);
+      const double own = 1.96 * model.deviation.at(name);
       spread.add(own, own);
-      numbers_.intervals[name] = {std::max(0.0, value - spread.down), value + spread.up};
+      const auto bias = model.bias.find(name);
+      const double middle = bias != model.bias.end() ? value - bias->second : value;
+      numbers_.intervals[name] = {std::max(0.0, std::min(value, middle - spread.down)),
+                                  std::max(value, middle + spread.up)};
     }
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measurement/outline/outline.h"
+#include "measurement/wound/reference_skin.h"
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/mesh.h"
 
@@ -57,6 +58,7 @@ struct MeasureOptions {
   double outline_half_width_mm = 0.5;     ///< 95 % of where another observer would draw C
   double skin_curve_half_width_mm = 1.0;  ///< the same for K
   double default_sigma_mm = 0.2;          ///< for a model that does not carry its own
+  ReferenceSkinOptions skin;
   bool intervals = true;
 };
 

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace tarsus {
@@ -22,12 +23,12 @@ using Quantities = std::map<std::string, double>;
                                       const BedDepths& depths,
                                       const std::optional<Landmarks>& landmarks);
 
-/// Standard deviation of each value from the model's own noise, correlated over
-/// ReferenceSkinOptions::correlation_area_mm2, in the bed and in the skin fit.
-[[nodiscard]] Quantities modelDeviations(const Bed& bed,
-                                         const BedDepths& depths,
-                                         const ReferenceSkin& skin,
-                                         const Quantities& values);
+/// Length of the outline on the surface with the given depths of the bed's vertices. Relief finer
+/// than 3 mm is smoothed along the skin's normal: noise and the facets of a sharp rim make any way
+/// over them 1 to 2 % longer, while the course of the curve on the skin stays as it was traced.
+[[nodiscard]] double perimeterOf(const Bed& bed,
+                                 const BedDepths& depths,
+                                 std::span<const double> depth_mm);
 
 /// The projected outline of a bed, seen from outside.
 [[nodiscard]] FlatOutline flatOutline(const Bed& bed, const BedDepths& depths);

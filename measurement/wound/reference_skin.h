@@ -1,10 +1,12 @@
 #pragma once
 
+#include "measurement/wound/skin_departure.h"
 #include "reconstruction/base/error.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,27 +23,21 @@ struct SkinSample {
 };
 
 struct ReferenceSkinOptions {
-  /// Skin is trusted this far from the skin curve (our benchmark, README.md).
-  double annulus_mm = 8.0;
-  /// Weight of the samples falls as exp(-outside / taper): near skin says more about the wound's.
-  double taper_mm = 2.5;
-  /// How far healthy skin departs from a biconic within the annulus, one standard deviation: the
-  /// prior that keeps the free terms from following noise (our benchmark, README.md).
-  double departure_mm = 0.3;
-  /// Highest order of the free terms.
-  int degree = 4;
-  /// False: plane instead of biconic, so that the polynomial carries the curvature (benchmark
-  /// only).
-  bool biconic = true;
+  /// Skin is looked at this far from the skin curve where it is even, and only as far as `near_mm`
+  /// where it departs from a biconic by half a millimetre and more (our benchmark, README.md).
+  double annulus_mm = 20.0;
+  double near_mm = 10.0;
+  /// Samples are averaged over square cells, at most about this many.
+  double least_cell_mm = 3.0;
+  double most_cells = 170.0;
+  /// Departures of healthy skin from a biconic that are weighed against each other (our benchmark).
+  std::vector<double> departures_mm{0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0};
+  std::vector<double> departure_lengths_mm{10.0, 15.0, 20.0, 30.0};
   /// Area over which errors of a fused depth surface move together: 2 pi (1.5 mm)^2.
   double correlation_area_mm2 = 14.0;
 };
 
-/// Smooth skin over the wound: a height field over a tangent plane,
-///   h(x) = base(x) + polynomial of orders 0 to degree,
-///   base(x) = x'Cx / (1 + sqrt(1 - x'C^2x)),
-/// the biconic of optical design (ISO 10110-12) with the curvature matrix C: sphere, cylinder,
-/// plane and saddle are special cases, the first three of them exact.
+/// Smooth skin over the wound: a height field over a tangent plane, biconic + plane + departure.
 class ReferenceSkin {
  public:
   /// The nearest point of the skin along its own normal.
@@ -53,34 +49,34 @@ class ReferenceSkin {
   };
 
   struct Shape {
-    double base = 0.0;
+    double height = 0.0;
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
   };
 
   [[nodiscard]] Foot footOf(const Eigen::Vector3d& p_mm) const;
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector2d& uv) const;
-  /// Standard deviation of the skin's height at uv from the noise of its samples [mm].
-  [[nodiscard]] double sigmaAt(const Eigen::Vector2d& uv) const;
-  /// Derivatives of the height by the parameters, for the variance of a volume.
-  [[nodiscard]] Eigen::VectorXd sensitivityAt(const Eigen::Vector2d& uv) const;
-  [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
+  /// Covariance of the skin's place along its normal at each pair of uv [mm^2]: noise of the
+  /// samples, and what skin may do where none was fitted.
+  [[nodiscard]] Eigen::MatrixXd covariance(const Eigen::Matrix2Xd& uv) const;
+  /// Of the samples' distances from the skin [mm].
   [[nodiscard]] double rmsResidual_mm() const { return rms_residual_mm_; }
+  /// How far skin departs from a biconic here, one standard deviation [mm].
+  [[nodiscard]] double departure_mm() const {
+    return departure_ ? departure_->amplitude_mm() : 0.0;
+  }
   /// Principal curvatures at the middle [1/mm], negative where the skin is convex.
   [[nodiscard]] Eigen::Vector2d curvatures() const;
 
  private:
   friend class SkinFitter;
-  [[nodiscard]] Shape heightAt(const Eigen::Vector2d& uv) const;
+  [[nodiscard]] Shape shapeAt(const Eigen::Vector2d& uv) const;
 
   Eigen::Isometry3d scan_from_skin_ = Eigen::Isometry3d::Identity();
-  Eigen::Matrix2d curvature_ = Eigen::Matrix2d::Zero();  ///< C [1/mm]
-  Eigen::VectorXd coefficients_;  ///< of (u/L)^i (v/L)^j [mm], by order, orders 0, 1, 3 and up
-  double unit_mm_ = 1.0;          ///< L
-  int degree_ = 4;
-  std::vector<Eigen::Vector2i> terms_;  ///< exponents of the coefficients
-  bool biconic_ = true;
-  Eigen::MatrixXd covariance_;  ///< of C11, C12, C22 and the coefficients
+  Eigen::Matrix2d curvature_ = Eigen::Matrix2d::Zero();  ///< of the biconic [1/mm]
+  Eigen::Vector3d plane_ = Eigen::Vector3d::Zero();      ///< height [mm], slopes
+  DepartureTable table_;
+  std::shared_ptr<const SkinDeparture> departure_;
   double rms_residual_mm_ = 0.0;
 };
 
@@ -88,6 +84,8 @@ class ReferenceSkin {
 [[nodiscard]] std::string_view referenceSkinMethod();
 
 /// Fits the skin by robust Gauss-Newton (Tukey weights), distances taken along the normal.
+/// Source: measurement/wound/README.md; the biconic is that of skin_base.h, the departure that of
+/// skin_departure.h.
 /// @param middle_mm  of the wound; the tangent plane lies there
 /// @errors ReferenceSkinFailed (too few samples, or not all around)
 [[nodiscard]] Expected<ReferenceSkin> fitReferenceSkin(std::span<const SkinSample> samples,

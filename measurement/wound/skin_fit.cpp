@@ -1,44 +1,20 @@
-#include "measurement/wound/skin_fit.h"
-
 #include "measurement/wound/reference_skin.h"
-
-#include <Eigen/Cholesky>
+#include "measurement/wound/skin_base.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace tarsus {
-
-SkinVector skinSensitivity(const SkinModel& model, const Eigen::Vector2d& uv) {
-  const auto& terms = model.terms;
-  const Eigen::Index first = model.biconic ? 3 : 0;
-  SkinVector g(first + static_cast<Eigen::Index>(terms.size()));
-  if (model.biconic) {
-    g.head<3>() = skinBase(model.curvature, uv).by_curvature;
-  }
-  // Powers by multiplication: this runs for every sample in every round.
-  std::array<double, 8> u{1.0};
-  std::array<double, 8> v{1.0};
-  for (int i = 1; i <= model.degree; ++i) {
-    u[i] = u[i - 1] * uv.x() / model.unit_mm;
-    v[i] = v[i - 1] * uv.y() / model.unit_mm;
-  }
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    g[first + static_cast<Eigen::Index>(k)] = u[terms[k].x()] * v[terms[k].y()];
-  }
-  return g;
-}
-
 namespace {
 
 constexpr int kSectors = 12;
 constexpr int kNeededSectors = 9;
+constexpr int kLeastCells = 15;
 /// Samples that look more than this away from the wound's normal lie on another side of the foot.
 const double kLeastCosine = std::cos(std::numbers::pi / 3.0);
-/// Prior of the curvature, one standard deviation [1/mm]: wide, only keeps the fit solvable.
-constexpr double kSharpestSkin = 10.0;
 constexpr double kTukey = 4.685;  ///< 95 % efficiency on normal noise
 
 double median(std::vector<double> values) {
@@ -59,49 +35,94 @@ Eigen::Isometry3d frameAt(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
   return frame;
 }
 
+/// Far on even skin, near on uneven, evenly (in the logarithm) between.
+double reachFor(double departure_mm, const ReferenceSkinOptions& options) {
+  constexpr double kEven_mm = 0.1;
+  constexpr double kUneven_mm = 0.5;
+  const double t =
+      std::clamp(std::log(departure_mm / kEven_mm) / std::log(kUneven_mm / kEven_mm), 0.0, 1.0);
+  return (1.0 - t) * options.annulus_mm + t * std::min(options.annulus_mm, options.near_mm);
+}
+
 }  // namespace
 
 class SkinFitter {
  public:
   SkinFitter(std::span<const SkinSample> samples, const ReferenceSkinOptions& options)
-      : samples_(samples), options_(options) {
-    skin_.degree_ = options.degree;
-    skin_.biconic_ = options.biconic;
-    skin_.terms_ = freeTerms(options.degree, options.biconic);
-  }
+      : samples_(samples), options_(options) {}
 
   Expected<ReferenceSkin> run(const Eigen::Vector3d& middle_mm) {
+    // The more the skin departs from a biconic, the less what is far says about the wound's.
+    auto skin = fitWithin(options_.annulus_mm, middle_mm);
+    if (!skin) {
+      return skin;
+    }
+    const double reach_mm = reachFor(skin->departure_mm(), options_);
+    return reach_mm < options_.annulus_mm ? fitWithin(reach_mm, middle_mm) : skin;
+  }
+
+ private:
+  /// The whole fit: first the shape and the frame in which it stands upright, then outliers, then
+  /// the kinds of departure.
+  Expected<ReferenceSkin> fitWithin(double reach_mm, const Eigen::Vector3d& middle_mm) {
+    reach_mm_ = reach_mm;
+    skin_ = {};
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const SkinSample& sample : samples_) {
-      normal += sample.area_mm2 * sample.normal;
+      if (sample.outside_mm <= reach_mm) {
+        normal += sample.area_mm2 * sample.normal;
+      }
     }
     if (normal.norm() <= 0.0) {
       return fail(ErrorCode::ReferenceSkinFailed, "there is no skin around the skin curve");
     }
     skin_.scan_from_skin_ = frameAt(middle_mm, normal.normalized());
-    skin_.coefficients_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(skin_.terms_.size()));
-    // The first round finds the shape, the second settles its frame, the rest weigh outliers down.
-    constexpr int kRounds = 8;
-    for (int round = 0; round < kRounds; ++round) {
-      if (const std::string reason = gather(); !reason.empty()) {
-        return fail(ErrorCode::ReferenceSkinFailed, reason);
+    if (const std::string reason = settleFrame(); !reason.empty()) {
+      return fail(ErrorCode::ReferenceSkinFailed, reason);
+    }
+    constexpr int kRobustSteps = 3;
+    for (int step = 0; step < kRobustSteps; ++step) {
+      fit(true, kMiddling);
+    }
+    std::vector<DepartureKind> kinds;
+    for (const double length_mm : options_.departure_lengths_mm) {
+      for (const double amplitude_mm : options_.departures_mm) {
+        kinds.push_back({.amplitude_mm = amplitude_mm, .length_mm = length_mm});
       }
-      const double change_mm = fit(round < 2 ? 5 : 3, round >= 2);
-      const double tilt = skin_.heightAt(Eigen::Vector2d::Zero()).gradient.norm();
-      if (round + 1 == kRounds || (round > 3 && tilt < 1e-6 && change_mm < 1e-5)) {
-        break;
+    }
+    fit(true, kinds);
+    if (!skin_.curvature_.allFinite() || !skin_.plane_.allFinite()) {
+      return fail(ErrorCode::ReferenceSkinFailed, "the fit did not come to an end");
+    }
+    return skin_;
+  }
+
+  /// The reason why that is not possible, or nothing.
+  std::string settleFrame() {
+    constexpr int kFrames = 6;
+    constexpr double kUpright = 1e-7;
+    for (int round = 0;; ++round) {
+      if (std::string reason = gather(); !reason.empty()) {
+        return reason;
+      }
+      for (int step = 0; step < 2; ++step) {
+        fit(false, kMiddling);
+      }
+      const auto middle = skin_.shapeAt(Eigen::Vector2d::Zero());
+      if (!std::isfinite(middle.height) || !middle.gradient.allFinite()) {
+        return "the fit did not come to an end";
+      }
+      if (round + 1 == kFrames || middle.gradient.norm() < kUpright) {
+        return {};
       }
       stayUpright();
     }
-    return skin_.coefficients_.allFinite() && skin_.curvature_.allFinite()
-               ? Expected<ReferenceSkin>(skin_)
-               : fail(ErrorCode::ReferenceSkinFailed, "the fit did not come to an end");
   }
 
- private:
   struct Local {
     Eigen::Vector3d p;
-    double weight = 0.0;  ///< 1 / mm^2
+    double area_mm2 = 0.0;
+    double sigma_mm = 0.0;
   };
 
   /// Takes the samples into the tangent frame; the reason why they do not suffice, or nothing.
@@ -110,35 +131,25 @@ class SkinFitter {
     const Eigen::Isometry3d skin_from_scan = skin_.scan_from_skin_.inverse();
     const Eigen::Vector3d up = skin_.scan_from_skin_.linear().col(2);
     std::array<int, kSectors> sectors{};
-    skin_.unit_mm_ = 1.0;
+    double area_mm2 = 0.0;
     for (const SkinSample& s : samples_) {
-      if (s.normal.dot(up) < kLeastCosine) {
+      if (s.normal.dot(up) < kLeastCosine || s.outside_mm > reach_mm_) {
         continue;
       }
       const Eigen::Vector3d p = skin_from_scan * s.position_mm;
-      local_.push_back({p,
-                        std::exp(-s.outside_mm / options_.taper_mm) * s.area_mm2 /
-                            (s.sigma_mm * s.sigma_mm * options_.correlation_area_mm2)});
-      skin_.unit_mm_ = std::max(skin_.unit_mm_, p.head<2>().norm());
+      local_.push_back({p, s.area_mm2, s.sigma_mm});
+      area_mm2 += s.area_mm2;
       const double turn = (std::atan2(p.y(), p.x()) + std::numbers::pi) / (2.0 * std::numbers::pi);
       ++sectors[std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1)];
     }
-    const auto parameters = skinSensitivity(model(), Eigen::Vector2d::Zero()).size();
-    if (static_cast<Eigen::Index>(local_.size()) < 2 * parameters) {
+    if (local_.size() < kLeastCells) {
       return std::to_string(local_.size()) + " points of skin around the skin curve are too few";
     }
+    cell_mm_ = std::max(options_.least_cell_mm, std::sqrt(area_mm2 / options_.most_cells));
     const auto seen = std::count_if(sectors.begin(), sectors.end(), [](int n) { return n > 0; });
     return seen >= kNeededSectors ? std::string()
                                   : "skin was scanned on " + std::to_string(seen) + " of " +
                                         std::to_string(kSectors) + " sides of the wound only";
-  }
-
-  [[nodiscard]] SkinModel model() const {
-    return {.curvature = skin_.curvature_,
-            .unit_mm = skin_.unit_mm_,
-            .degree = skin_.degree_,
-            .biconic = skin_.biconic_,
-            .terms = skin_.terms_};
   }
 
   struct Residual {
@@ -155,8 +166,8 @@ class SkinFitter {
     std::vector<Residual> all;
     all.reserve(local_.size());
     for (const Local& s : local_) {
-      const auto shape = skin_.heightAt(s.p.head<2>());
-      const double rise = s.p.z() - shape.base;
+      const auto shape = skin_.shapeAt(s.p.head<2>());
+      const double rise = s.p.z() - shape.height;
       const double steepness = 1.0 + shape.gradient.squaredNorm();
       Residual r;
       r.cosine = 1.0 / std::sqrt(steepness);
@@ -168,50 +179,8 @@ class SkinFitter {
     return all;
   }
 
-  [[nodiscard]] Eigen::VectorXd priorPrecision() const {
-    const auto& terms = skin_.terms_;
-    const Eigen::Index first = skin_.biconic_ ? 3 : 0;
-    Eigen::VectorXd precision =
-        Eigen::VectorXd::Zero(first + static_cast<Eigen::Index>(terms.size()));
-    precision.head(first).setConstant(1.0 / (kSharpestSkin * kSharpestSkin));
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      if (terms[k].sum() >= 3 && options_.departure_mm > 0.0) {
-        precision[first + static_cast<Eigen::Index>(k)] =
-            1.0 / (options_.departure_mm * options_.departure_mm);
-      }
-    }
-    return precision;
-  }
-
-  /// Moves the frame to where the skin stands upright over the middle; the shape stays about the
-  /// same, so that the next round starts close.
-  void stayUpright() {
-    const auto middle = skin_.heightAt(Eigen::Vector2d::Zero());
-    const Eigen::Vector3d normal =
-        Eigen::Vector3d(-middle.gradient.x(), -middle.gradient.y(), 1.0).normalized();
-    skin_.scan_from_skin_ = frameAt(skin_.scan_from_skin_ * Eigen::Vector3d(0.0, 0.0, middle.base),
-                                    skin_.scan_from_skin_.linear() * normal);
-    for (std::size_t k = 0; k < skin_.terms_.size(); ++k) {
-      if (skin_.terms_[k].sum() <= 1) {
-        skin_.coefficients_[static_cast<Eigen::Index>(k)] = 0.0;
-      }
-    }
-  }
-
-  /// At most `steps` steps; returns the last one's change of height [mm].
-  double fit(int steps, bool robust) {
-    double change_mm = 0.0;
-    for (int step = 0; step < steps; ++step) {
-      change_mm = gaussNewton(robust);
-      if (change_mm < 1e-7) {
-        break;
-      }
-    }
-    return change_mm;
-  }
-
-  /// One step; returns its greatest change of height in the unit circle [mm].
-  double gaussNewton(bool robust) {
+  /// Averages the samples over square cells of the tangent plane.
+  [[nodiscard]] SkinCells average(bool robust) {
     const std::vector<Residual> all = residuals();
     std::vector<double> absolute;
     absolute.reserve(all.size());
@@ -220,60 +189,97 @@ class SkinFitter {
     }
     // At least 0.05 mm, or noise-free skin would throw itself away.
     const double cut_mm = kTukey * std::max(0.05, 1.4826 * median(absolute));
-    const Eigen::VectorXd precision = priorPrecision();
-    Eigen::MatrixXd normal = precision.asDiagonal();
-    Eigen::VectorXd parameters(precision.size());
-    if (skin_.biconic_) {
-      parameters << skin_.curvature_(0, 0), skin_.curvature_(0, 1), skin_.curvature_(1, 1),
-          skin_.coefficients_;
-    } else {
-      parameters = skin_.coefficients_;
-    }
-    Eigen::VectorXd right = -precision.cwiseProduct(parameters);
-    const SkinModel shape = model();
+    struct Sum {
+      double weight = 0.0;
+      double precision = 0.0;
+      Eigen::Matrix<double, 10, 1> values = Eigen::Matrix<double, 10, 1>::Zero();
+    };
+    std::map<std::pair<int, int>, Sum> cells;  // sorted: the same order everywhere
     double squares = 0.0;
     double weights = 0.0;
     for (std::size_t i = 0; i < local_.size(); ++i) {
-      const double r = all[i].along_normal_mm;
-      const double x = r / cut_mm;
+      const Residual& r = all[i];
+      const double x = r.along_normal_mm / cut_mm;
       const double tukey = !robust ? 1.0 : std::abs(x) < 1.0 ? std::pow(1.0 - x * x, 2) : 0.0;
-      const double w = local_[i].weight * tukey;
-      const SkinVector g = all[i].cosine * skinSensitivity(shape, all[i].foot);
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(g, w);
-      right += w * r * g;
-      squares += w * r * r;
-      weights += w;
+      const double area = tukey * local_[i].area_mm2;
+      if (!(area > 0.0)) {
+        continue;
+      }
+      const auto place = [&](double c) { return static_cast<int>(std::floor(c / cell_mm_)); };
+      Sum& sum = cells[{place(local_[i].p.x()), place(local_[i].p.y())}];
+      const double known =
+          skin_.table_.at(r.foot).height + skin_.plane_[0] + skin_.plane_.tail<2>().dot(r.foot);
+      const Eigen::Vector3d bend = skinBase(skin_.curvature_, r.foot).by_curvature;
+      Eigen::Matrix<double, 10, 1> values;
+      values << r.foot, r.along_normal_mm + r.cosine * known, r.cosine, r.cosine * bend, r.cosine,
+          r.cosine * r.foot;
+      sum.values += area * values;
+      sum.weight += area;
+      sum.precision += area / (local_[i].sigma_mm * local_[i].sigma_mm);
+      squares += area * r.along_normal_mm * r.along_normal_mm;
+      weights += area;
     }
-    const Eigen::LDLT<Eigen::MatrixXd> solver(normal.selfadjointView<Eigen::Lower>());
-    const Eigen::VectorXd change = solver.solve(right);
-    skin_.covariance_ = solver.solve(Eigen::MatrixXd::Identity(change.size(), change.size()));
     skin_.rms_residual_mm_ = weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
-    apply(change);
-    return largestChange(change);
-  }
-
-  void apply(const Eigen::VectorXd& change) {
-    if (skin_.biconic_) {
-      skin_.curvature_(0, 0) += change[0];
-      skin_.curvature_(0, 1) += change[1];
-      skin_.curvature_(1, 0) += change[1];
-      skin_.curvature_(1, 1) += change[2];
+    SkinCells result;
+    const auto count = static_cast<Eigen::Index>(cells.size());
+    result.uv.resize(2, count);
+    result.value_mm.resize(count);
+    result.cosine.resize(count);
+    result.precision.resize(count);
+    result.base.resize(count, 6);
+    Eigen::Index k = 0;
+    for (const auto& [place, sum] : cells) {
+      const Eigen::Matrix<double, 10, 1> mean = sum.values / sum.weight;
+      result.uv.col(k) = mean.head<2>();
+      result.value_mm[k] = mean[2];
+      result.cosine[k] = mean[3];
+      result.base.row(k) = mean.tail<6>().transpose();
+      result.precision[k] = sum.precision / options_.correlation_area_mm2;
+      ++k;
     }
-    skin_.coefficients_ += change.tail(skin_.coefficients_.size());
+    return result;
   }
 
-  [[nodiscard]] double largestChange(const Eigen::VectorXd& change) const {
-    const Eigen::Index first = skin_.biconic_ ? 3 : 0;
-    const double bend = skin_.biconic_ ? 0.5 * change.head<3>().cwiseAbs().maxCoeff() *
-                                             skin_.unit_mm_ * skin_.unit_mm_
-                                       : 0.0;
-    return std::max(bend, change.tail(change.size() - first).cwiseAbs().maxCoeff());
+  /// Moves the frame to where the skin stands upright over the middle; the shape stays about the
+  /// same, so that the next round starts close.
+  void stayUpright() {
+    const auto middle = skin_.shapeAt(Eigen::Vector2d::Zero());
+    const Eigen::Vector3d normal =
+        Eigen::Vector3d(-middle.gradient.x(), -middle.gradient.y(), 1.0).normalized();
+    const Eigen::Matrix3d before = skin_.scan_from_skin_.linear();
+    skin_.scan_from_skin_ =
+        frameAt(skin_.scan_from_skin_ * Eigen::Vector3d(0.0, 0.0, middle.height), before * normal);
+    // The axes may turn about the normal.
+    const Eigen::Matrix2d turn =
+        (skin_.scan_from_skin_.linear().transpose() * before).topLeftCorner<2, 2>();
+    skin_.curvature_ = turn * skin_.curvature_ * turn.transpose();
+    skin_.plane_.setZero();
+    skin_.table_ = {};
   }
+
+  /// One step from the shape at hand.
+  void fit(bool robust, std::span<const DepartureKind> kinds) {
+    constexpr double kMargin_mm = 4.0;
+    SkinCells cells = average(robust);
+    const Eigen::Vector2d low = cells.uv.rowwise().minCoeff().array() - kMargin_mm;
+    const Eigen::Vector2d high = cells.uv.rowwise().maxCoeff().array() + kMargin_mm;
+    skin_.departure_ = std::make_shared<const SkinDeparture>(std::move(cells), kinds);
+    const SkinDeparture::Parameters& p = skin_.departure_->parameters();
+    skin_.curvature_ += (Eigen::Matrix2d() << p[0], p[1], p[1], p[2]).finished();
+    skin_.plane_ = p.tail<3>();
+    skin_.table_ = DepartureTable(*skin_.departure_, low, high);
+  }
+
+  /// What is assumed before the kinds are weighed.
+  static constexpr std::array<DepartureKind, 1> kMiddling{
+      DepartureKind{.amplitude_mm = 0.3, .length_mm = 15.0}};
 
   std::span<const SkinSample> samples_;
-  ReferenceSkinOptions options_;
+  const ReferenceSkinOptions& options_;
   ReferenceSkin skin_;
   std::vector<Local> local_;
+  double reach_mm_ = 0.0;  ///< outside the skin curve
+  double cell_mm_ = 0.0;
 };
 
 Expected<ReferenceSkin> fitReferenceSkin(std::span<const SkinSample> samples,

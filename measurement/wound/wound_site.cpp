@@ -128,7 +128,7 @@ Expected<WoundSite> openSite(const TexturedMesh& foot,
   }
   std::vector<Eigen::Vector3d> outermost = meshPositions(foot, skin_curve.value_or(outline));
   const Ball3 ball = ballAround(outermost);
-  const double reach_mm = ReferenceSkinOptions{}.annulus_mm + options.skin_curve_half_width_mm +
+  const double reach_mm = options.skin.annulus_mm + options.skin_curve_half_width_mm +
                           (skin_curve ? 0.0 : options.skin_curve_offset_mm) + 1.0;
   double radius_mm = ball.radius_mm + reach_mm + 2.0;
   WoundSite site;
@@ -164,7 +164,7 @@ std::vector<SkinSample> skinSamples(const TexturedMesh& foot,
                                     const WoundSite& site,
                                     double shift_mm,
                                     const MeasureOptions& options) {
-  const double annulus_mm = ReferenceSkinOptions{}.annulus_mm;
+  const double annulus_mm = options.skin.annulus_mm;
   const SurfacePatch& patch = site.patch;
   std::vector<SkinSample> samples;
   for (int v = 0; v < static_cast<int>(patch.vertices.size()); ++v) {

@@ -37,7 +37,7 @@ void expectUnbiased(const test::Skin& skin, double radius_mm, double depth_mm) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const auto foot = test::woundMesh(skin,
                                       relief,
-                                      {.half_size_mm = radius_mm + 12.0,
+                                      {.half_size_mm = radius_mm + 24.0,
                                        .seed = static_cast<std::uint64_t>(seed),
                                        .noise_mm = 0.2});
     const auto result = test::measured(foot, test::circleOn(skin, relief, radius_mm, 180));

@@ -1,0 +1,255 @@
+#include "measurement/wound/noise_trials.h"
+
+#include "reconstruction/base/parallel.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+
+namespace tarsus {
+namespace {
+
+constexpr int kTrials = 100;
+constexpr int kWaves = 128;
+
+/// Normal deviates from a counter: the same on every machine (SplitMix64, Box and Muller).
+class Deviates {
+ public:
+  explicit Deviates(std::uint64_t seed) : state_(seed) {}
+  double next() {
+    const double u = 1.0 - uniform();
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * uniform());
+  }
+  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index cols) {
+    Eigen::MatrixXd m(rows, cols);
+    for (double& x : m.reshaped()) {
+      x = next();
+    }
+    return m;
+  }
+
+ private:
+  double uniform() {
+    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+  }
+  std::uint64_t state_;
+};
+
+/// Places that stand for all vertices in a cell around them.
+struct Nodes {
+  std::vector<int> of_vertex;
+  std::vector<Eigen::Vector3d> places;
+};
+
+Nodes gatherNodes(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
+  Nodes nodes;
+  std::map<std::array<int, 3>, int> cells;
+  std::vector<int> counts;
+  for (const Eigen::Vector3d& p : points) {
+    const auto place = [&](double x) { return static_cast<int>(std::floor(x / cell_mm)); };
+    const auto [it, fresh] = cells.try_emplace({place(p.x()), place(p.y()), place(p.z())},
+                                               static_cast<int>(nodes.places.size()));
+    if (fresh) {
+      nodes.places.emplace_back(Eigen::Vector3d::Zero());
+      counts.push_back(0);
+    }
+    nodes.of_vertex.push_back(it->second);
+    nodes.places[it->second] += p;
+    ++counts[it->second];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    nodes.places[i] /= counts[i];
+  }
+  return nodes;
+}
+
+/// #nodes x kTrials noise of variance 1, correlated as exp(-d^2 / (2 length^2)): sums of waves with
+/// normal amplitudes, so that all trials share the costly cosines.
+Eigen::MatrixXd correlatedNoise(const Nodes& nodes, double length_mm) {
+  Deviates deviates(1);
+  const Eigen::MatrixXd waves = deviates.matrix(3, kWaves) / length_mm;
+  const auto count = static_cast<Eigen::Index>(nodes.places.size());
+  Eigen::MatrixXd basis(count, 2 * kWaves);
+  parallelFor(static_cast<int>(count), [&](int i) {
+    for (Eigen::Index k = 0; k < kWaves; ++k) {
+      const double phase = waves.col(k).dot(nodes.places[i]);
+      basis(i, k) = std::cos(phase);
+      basis(i, kWaves + k) = std::sin(phase);
+    }
+  });
+  return basis * deviates.matrix(2 * kWaves, kTrials) / std::sqrt(static_cast<double>(kWaves));
+}
+
+class Trials {
+ public:
+  Trials(const Bed& bed, const BedDepths& depths, const ReferenceSkin& skin)
+      : bed_(bed), depths_(depths), bed_nodes_(gatherNodes(bed.vertices, kBedCell_mm)) {
+    const double length_mm =
+        std::sqrt(ReferenceSkinOptions{}.correlation_area_mm2 / (2.0 * std::numbers::pi));
+    noise_ = correlatedNoise(bed_nodes_, length_mm);
+    moveSkin(skin);
+    layFaces();
+  }
+
+  /// Values of trial k; -1: without noise, by the same sums.
+  [[nodiscard]] Quantities run(int k) const {
+    const auto count = bed_.vertices.size();
+    std::vector<double> depth(count);
+    std::vector<double> along_bed(count, 0.0);
+    std::vector<double> lift(count, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (k >= 0) {
+        along_bed[i] = bed_.sigma_mm[i] * noise_(bed_nodes_.of_vertex[i], k);
+        lift[i] = skin_shift_(skin_nodes_.of_vertex[i], k);
+      }
+      depth[i] = depths_.feet[i].depth_mm - along_bed[i] * cosine_[i] + lift[i];
+    }
+    Quantities q = volumes(depth, along_bed, lift);
+    q["max_depth_mm"] = *std::max_element(depth.begin(), depth.end());
+    q["p99_depth_mm"] = percentile99(bed_, depth);
+    q["bed_area_mm2"] = bedArea(along_bed);
+    q["perimeter_mm"] = perimeterOf(bed_, depths_, depth);
+    return q;
+  }
+
+ private:
+  static constexpr double kBedCell_mm = 1.0;
+  static constexpr double kSkinCell_mm = 3.0;
+
+  void moveSkin(const ReferenceSkin& skin) {
+    std::vector<Eigen::Vector3d> flat;
+    flat.reserve(depths_.feet.size());
+    for (const auto& foot : depths_.feet) {
+      flat.emplace_back(foot.uv.x(), foot.uv.y(), 0.0);
+    }
+    skin_nodes_ = gatherNodes(flat, kSkinCell_mm);
+    const auto count = static_cast<Eigen::Index>(skin_nodes_.places.size());
+    Eigen::Matrix2Xd uv(2, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      uv.col(i) = skin_nodes_.places[static_cast<std::size_t>(i)].head<2>();
+    }
+    Eigen::MatrixXd covariance = skin.covariance(uv);
+    covariance.diagonal().array() += 1e-9;  // nodes that all but coincide
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    Deviates deviates(2);
+    skin_shift_ = root.matrixL() * deviates.matrix(count, kTrials);
+  }
+
+  void layFaces() {
+    normals_.assign(bed_.vertices.size(), Eigen::Vector3d::Zero());
+    for (const auto& f : bed_.faces) {
+      const Eigen::Vector3d twice = (bed_.vertices[f[1]] - bed_.vertices[f[0]])
+                                        .cross(bed_.vertices[f[2]] - bed_.vertices[f[0]]);
+      Eigen::Vector3d up = Eigen::Vector3d::Zero();
+      for (const int v : f) {
+        normals_[v] += twice;
+        up += depths_.feet[v].normal;
+      }
+      const auto& a = depths_.feet[f[0]].position_mm;
+      face_bed_mm2_.push_back(0.5 * twice.norm());
+      face_opening_mm2_.push_back(0.5 * (depths_.feet[f[1]].position_mm - a)
+                                            .cross(depths_.feet[f[2]].position_mm - a)
+                                            .dot(up.normalized()));
+    }
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      normals_[i].normalize();
+      cosine_.push_back(std::max(0.0, normals_[i].dot(depths_.feet[i].normal)));
+    }
+  }
+
+  /// Moving the bed along its normal adds its own area times the way; what stands above the skin
+  /// is counted under the skin's area.
+  [[nodiscard]] Quantities volumes(const std::vector<double>& depth,
+                                   const std::vector<double>& along_bed,
+                                   const std::vector<double>& lift) const {
+    double moved = 0.0;
+    double above = 0.0;
+    double above_before = 0.0;
+    for (std::size_t i = 0; i < bed_.faces.size(); ++i) {
+      const auto& f = bed_.faces[i];
+      for (const int v : f) {
+        moved += (face_opening_mm2_[i] * lift[v] - face_bed_mm2_[i] * along_bed[v]) / 3.0;
+        above += face_opening_mm2_[i] * std::max(0.0, -depth[v]) / 3.0;
+        above_before += face_opening_mm2_[i] * std::max(0.0, -depths_.feet[v].depth_mm) / 3.0;
+      }
+    }
+    const double above_mm3 = depths_.above_mm3 + above - above_before;
+    const double below_mm3 = depths_.below_mm3 + moved + above - above_before;
+    return {{"volume_mm3", below_mm3},
+            {"volume_above_mm3", above_mm3},
+            {"mean_depth_mm", below_mm3 / depths_.opening_mm2}};
+  }
+
+  [[nodiscard]] double bedArea(const std::vector<double>& along_bed) const {
+    double area = 0.0;
+    for (const auto& f : bed_.faces) {
+      const auto at = [&](int k) -> Eigen::Vector3d {
+        return bed_.vertices[f[k]] + along_bed[f[k]] * normals_[f[k]];
+      };
+      const Eigen::Vector3d a = at(0);
+      area += 0.5 * (at(1) - a).cross(at(2) - a).norm();
+    }
+    return area;
+  }
+
+  const Bed& bed_;
+  const BedDepths& depths_;
+  Nodes bed_nodes_;
+  Nodes skin_nodes_;
+  Eigen::MatrixXd noise_;       ///< #bed nodes x kTrials, variance 1
+  Eigen::MatrixXd skin_shift_;  ///< #skin nodes x kTrials, outward [mm]
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<double> cosine_;  ///< between bed and skin
+  std::vector<double> face_bed_mm2_;
+  std::vector<double> face_opening_mm2_;
+};
+
+}  // namespace
+
+ModelSpread tryNoise(const Bed& bed,
+                     const BedDepths& depths,
+                     const ReferenceSkin& skin,
+                     const Quantities& values) {
+  const Trials trials(bed, depths, skin);
+  std::vector<Quantities> all(kTrials);
+  parallelFor(kTrials, [&](int k) { all[k] = trials.run(k); });
+  ModelSpread spread;
+  for (const auto& [name, calm] : trials.run(-1)) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const Quantities& q : all) {
+      sum += q.at(name) - calm;
+      squares += (q.at(name) - calm) * (q.at(name) - calm);
+    }
+    spread.bias[name] = sum / kTrials;
+    spread.deviation[name] =
+        std::sqrt(std::max(0.0, squares - sum * sum / kTrials) / (kTrials - 1));
+  }
+  // The curve's points are as uncertain sideways as the model is, independently each
+  // correlation length.
+  double sigma_mm = 0.0;
+  for (const int v : bed.curve) {
+    sigma_mm += bed.sigma_mm[v] / static_cast<double>(bed.curve.size());
+  }
+  const double correlation_mm = std::sqrt(ReferenceSkinOptions{}.correlation_area_mm2);
+  const double area = sigma_mm * std::sqrt(values.at("perimeter_mm") * correlation_mm);
+  for (const auto& [name, value] : values) {
+    const bool is_area = name.ends_with("_mm2");
+    if (!spread.deviation.contains(name)) {
+      spread.deviation[name] = is_area ? area : sigma_mm * std::numbers::sqrt2;
+    }
+  }
+  spread.deviation["bed_area_mm2"] = std::hypot(spread.deviation["bed_area_mm2"], area);
+  return spread;
+}
+
+}  // namespace tarsus
