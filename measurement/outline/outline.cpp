@@ -1,5 +1,6 @@
 #include "measurement/outline/outline.h"
 
+#include "measurement/outline/carried_points.h"
 #include "measurement/outline/cut.h"
 #include "measurement/outline/simplify.h"
 #include "measurement/outline/surface_curve.h"
@@ -37,11 +38,13 @@ struct Snapped {
   std::vector<Eigen::Vector3d> positions;
 };
 
-Expected<Snapped> snap(const MeshIndex& index,
+Expected<Snapped> snap(const TriangleMesh& mesh,
+                       const MeshIndex& index,
                        std::span<const Eigen::Vector3d> points_mm,
                        double max_distance_mm) {
   constexpr double kAnyDistance_mm = 1e5;
   Snapped snapped;
+  std::vector<MeshIndex::NearestPoint> places;
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     if (!points_mm[i].allFinite()) {
       return fail(ErrorCode::OutlineInvalid, "point " + std::to_string(i + 1) + " is not a number");
@@ -55,8 +58,12 @@ Expected<Snapped> snap(const MeshIndex& index,
                       " from the surface; at most " + millimetres(max_distance_mm) +
                       " is accepted");
     }
-    snapped.points.push_back(nearest->point);
-    snapped.positions.push_back(nearest->position_mm);
+    places.push_back(*nearest);
+  }
+  carryAlongSkin(mesh, index, points_mm, places);
+  for (const auto& place : places) {
+    snapped.points.push_back(place.point);
+    snapped.positions.push_back(place.position_mm);
   }
   return snapped;
 }
@@ -180,7 +187,7 @@ Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
     return fail(ErrorCode::OutlineInvalid,
                 std::to_string(points_mm.size()) + " points given; at least 3 are needed");
   }
-  const auto snapped = snap(index, points_mm, options.max_snap_distance_mm);
+  const auto snapped = snap(foot.mesh, index, points_mm, options.max_snap_distance_mm);
   if (!snapped) {
     return tl::unexpected(snapped.error());
   }
