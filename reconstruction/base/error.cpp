@@ -89,6 +89,13 @@ constexpr std::array kEntries{
           "reference_skin_failed",
           "The healthy skin could not be rebuilt over the wound; move the skin curve onto smooth "
           "skin with more margin."},
+    Entry{ErrorCode::TissueInvalid,
+          "tissue_invalid",
+          "The tissue of this wound cannot be proposed or read; paint it by hand on this very "
+          "model."},
+    Entry{ErrorCode::ScoreInputInvalid,
+          "score_input_invalid",
+          "A score's input cannot be used; correct it, or leave it out if it is not known."},
     Entry{ErrorCode::FontMissing,
           "font_missing",
           "The report's font was not found; install the package fonts-noto-core."},

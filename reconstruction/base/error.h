@@ -32,6 +32,8 @@ enum class ErrorCode {
   OutlineSelfIntersects,
   SkinCurveInvalid,
   ReferenceSkinFailed,
+  TissueInvalid,
+  ScoreInputInvalid,
   FontMissing,
 };
 

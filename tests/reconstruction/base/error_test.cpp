@@ -34,6 +34,8 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::OutlineSelfIntersects:
     case ErrorCode::SkinCurveInvalid:
     case ErrorCode::ReferenceSkinFailed:
+    case ErrorCode::TissueInvalid:
+    case ErrorCode::ScoreInputInvalid:
     case ErrorCode::FontMissing:
       return true;
   }
