@@ -3,6 +3,7 @@
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/capture/simulator/skin_color.h"
 #include "reconstruction/capture/simulator/surroundings.h"
+#include "reconstruction/capture/simulator/tissue_truth.h"
 #include "reconstruction/capture/simulator/truth.h"
 #include "reconstruction/capture/simulator/ulcer_designs.h"
 
@@ -112,12 +113,14 @@ Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOption
   scene->foot.mesh =
       moved({.positions = carved->carved, .faces = carved->intact.faces}, scan_from_foot);
   scene->foot.colors = paintFoot(*foot, *carved);
+  scene->tissue = bedTissue(*carved);
   scene->foot.comments = {"simulated foot, the truth of a simulated scan"};
   scene->intact_foot = moved(carved->intact, scan_from_foot);
   scene->surroundings = makeSurroundings(*foot);
   move(scene->surroundings, scan_from_foot);
   for (std::size_t i = 0; i < carved->ulcers.size(); ++i) {
     WoundTruth truth = measureTruth(*foot, *carved, static_cast<int>(i));
+    truth.tissue_fraction = tissueFractions(*carved, scene->tissue, static_cast<int>(i));
     move(truth, scan_from_foot);
     scene->wounds.push_back(std::move(truth));
   }

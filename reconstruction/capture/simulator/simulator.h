@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,11 +23,15 @@ enum class CameraLayout { Aligned, Offset };
 /// The scene and its truth stay right whatever the camera does.
 enum class ScanFault { None, Black, Jump, Holes, Dropped, Mirrored, Rest, Blocked, Unit };
 
+/// What the bed of a simulated ulcer is made of at one place.
+enum class BedTissue : std::uint8_t { None, Granulation, Slough, Necrosis, Epithelium };
+
 /// The words of the command line.
 [[nodiscard]] std::string_view nameOf(FootCase foot);
 [[nodiscard]] std::string_view nameOf(CameraPath path);
 [[nodiscard]] std::string_view nameOf(CameraLayout layout);
 [[nodiscard]] std::string_view nameOf(ScanFault fault);
+[[nodiscard]] std::string_view nameOf(BedTissue tissue);
 [[nodiscard]] std::optional<FootCase> footCaseNamed(std::string_view name);
 [[nodiscard]] std::optional<CameraPath> cameraPathNamed(std::string_view name);
 [[nodiscard]] std::optional<CameraLayout> cameraLayoutNamed(std::string_view name);
@@ -61,8 +66,9 @@ struct WoundTruth {
   double width_clock_mm = 0.0;
   double opening_area_second_way_mm2 = 0.0;  ///< by ray grid; must agree within 0.5 %
   double volume_second_way_mm3 = 0.0;
-  std::vector<Eigen::Vector3d> outline_mm;     ///< C, dense closed polyline on the true surface
-  std::vector<Eigen::Vector3d> skin_curve_mm;  ///< K, 2 mm outside C along the surface
+  std::map<std::string, double> tissue_fraction;  ///< of the bed, by name; sums to 1
+  std::vector<Eigen::Vector3d> outline_mm;        ///< C, dense closed polyline on the true surface
+  std::vector<Eigen::Vector3d> skin_curve_mm;     ///< K, 2 mm outside C along the surface
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
 };
 
@@ -71,6 +77,7 @@ struct SimulatedScene {
   TexturedMesh foot;  ///< with the ulcers; what a perfect scan would give
   TriangleMesh
       intact_foot;  ///< same faces and vertex order, ulcers filled: the true reference skin
+  std::vector<BedTissue> tissue;  ///< #V of foot: what the ulcers' beds are made of; None on skin
   TexturedMesh surroundings;
   std::vector<WoundTruth> wounds;
   Eigen::Vector3d heel_mm = Eigen::Vector3d::Zero();  ///< most posterior plantar point

@@ -38,6 +38,7 @@ json woundJson(const WoundTruth& w) {
           {"width_mm", w.width_mm},
           {"length_clock_mm", w.length_clock_mm},
           {"width_clock_mm", w.width_clock_mm},
+          {"tissue_fraction", w.tissue_fraction},
           {"second_way",
            {{"opening_area_mm2", w.opening_area_second_way_mm2},
             {"volume_mm3", w.volume_second_way_mm3}}}};

@@ -64,27 +64,45 @@ WoundPainter::WoundPainter(const Ulcer& ulcer)
       slough_level_(levelFor(ulcer, ulcer.design().slough, sloughNoise)),
       necrosis_level_(levelFor(ulcer, ulcer.design().necrosis, necrosisNoise)) {}
 
-Color WoundPainter::bed(const Vector3d& p) const {
+WoundPainter::Layers WoundPainter::layersAt(const Vector3d& p) const {
   Vector3d q = ulcer_.local(p);
   q.z() = 0.0;
   const double inside_mm = -ulcer_.rimDistance(p);
+  return {.slough = 0.92 * (smoothStep(0.6, 2.0, inside_mm) *
+                            smoothStep(slough_level_ - 0.06, slough_level_ + 0.06, sloughNoise(q))),
+          .necrosis = smoothStep(0.3, 1.2, inside_mm) *
+                      smoothStep(necrosis_level_ - 0.02, necrosis_level_ + 0.02, necrosisNoise(q)),
+          .island = 0.9 * smoothStep(0.35, 0.75, ulcer_.islandShare(q)),
+          // A thin line of new skin.
+          .rim = 0.75 * (1.0 - smoothStep(0.1, 0.9, inside_mm))};
+}
+
+Color WoundPainter::bed(const Vector3d& p) const {
+  Vector3d q = ulcer_.local(p);
+  q.z() = 0.0;
+  const Layers layers = layersAt(p);
   const double bud = cellNoise(q / 1.9 + Vector3d(3, 7, 0), 41);
   Color c = mix(kBud, kGranulation, smoothStep(0.1, 0.5, bud));
   c = mix(c, kBetweenBuds, 0.8 * smoothStep(0.5, 0.95, bud));
   c *= 1.0 + 0.10 * fractalNoise(q / 3.0, 3, 42);
-
-  const double slough = smoothStep(0.6, 2.0, inside_mm) *
-                        smoothStep(slough_level_ - 0.06, slough_level_ + 0.06, sloughNoise(q));
   const double fibres = smoothStep(-0.3, 0.5, fractalNoise({q.x() / 1.1, q.y() / 4.0, 0}, 3, 44));
-  c = mix(c, mix(kSlough, kSloughDark, 0.6 * fibres), 0.92 * slough);
+  c = mix(c, mix(kSlough, kSloughDark, 0.6 * fibres), layers.slough);
+  c = mix(c, kNecrosis * (1.0 + 0.25 * fractalNoise(q / 1.5, 2, 46)), layers.necrosis);
+  c = mix(c, kEpithelium, layers.island);
+  return mix(c, kEpithelium, layers.rim);
+}
 
-  const double necrosis =
-      smoothStep(0.3, 1.2, inside_mm) *
-      smoothStep(necrosis_level_ - 0.02, necrosis_level_ + 0.02, necrosisNoise(q));
-  c = mix(c, kNecrosis * (1.0 + 0.25 * fractalNoise(q / 1.5, 2, 46)), necrosis);
-  c = mix(c, kEpithelium, 0.9 * smoothStep(0.35, 0.75, ulcer_.islandShare(q)));
-  // A thin line of new skin at the rim.
-  return mix(c, kEpithelium, 0.75 * (1.0 - smoothStep(0.1, 0.9, inside_mm)));
+BedTissue WoundPainter::tissue(const Vector3d& p) const {
+  const Layers layers = layersAt(p);
+  const double under_skin = (1.0 - layers.island) * (1.0 - layers.rim);
+  const double necrosis = layers.necrosis * under_skin;
+  const double slough = layers.slough * (1.0 - layers.necrosis) * under_skin;
+  const double granulation = under_skin - necrosis - slough;
+  const double most = std::max({granulation, slough, necrosis, 1.0 - under_skin});
+  return most == granulation ? BedTissue::Granulation
+         : most == slough    ? BedTissue::Slough
+         : most == necrosis  ? BedTissue::Necrosis
+                             : BedTissue::Epithelium;
 }
 
 Color WoundPainter::margin(const Vector3d& p, const Color& skin) const {

@@ -47,6 +47,28 @@ TEST_P(TruthOf, TwoWaysAgreeWithinHalfAPercent) {
   }
 }
 
+TEST_P(TruthOf, TissueFillsTheBedAndNothingElse) {
+  const auto scene = sceneOf(GetParam());
+  ASSERT_TRUE(scene);
+  ASSERT_EQ(scene->tissue.size(), scene->foot.mesh.vertices.size());
+  for (const WoundTruth& w : scene->wounds) {
+    double sum = 0.0;
+    for (const auto& [name, fraction] : w.tissue_fraction) {
+      EXPECT_GE(fraction, 0.0) << name;
+      sum += fraction;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+    EXPECT_GT(w.tissue_fraction.at("granulation"), 0.3);
+  }
+  for (std::size_t v = 0; v < scene->tissue.size(); ++v) {
+    const Eigen::Vector3d p = scene->foot.mesh.vertices[v].cast<double>();
+    const bool near = std::ranges::any_of(scene->wounds, [&](const WoundTruth& w) {
+      return (p - w.center_mm).norm() < w.length_mm + w.max_depth_mm;
+    });
+    ASSERT_TRUE(near || scene->tissue[v] == BedTissue::None);
+  }
+}
+
 TEST_P(TruthOf, CurvesLieOnTheSurfacesTheyBelongTo) {
   const auto scene = sceneOf(GetParam());
   ASSERT_TRUE(scene);
