@@ -33,6 +33,8 @@ void addReconstruct(CLI::App& app, Command& command);
 void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);
 void addMeasure(CLI::App& app, Command& command);
+void addTissue(CLI::App& app, Command& command);
+void addScore(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);
 void addDemo(CLI::App& app, Command& command);
 

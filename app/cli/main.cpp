@@ -82,6 +82,8 @@ int parseAndRun(int argc, char** argv) {
   addTexture(app, command);
   addEvaluate(app, command);
   addMeasure(app, command);
+  addTissue(app, command);
+  addScore(app, command);
   addReport(app, command);
   addDemo(app, command);
   try {

@@ -55,6 +55,9 @@ void addMeasure(CLI::App& app, Command& command) {
       }
       if (!command.quiet && command.json_file != "-") {
         printMeasurement(measured->wound.numbers, nullptr);
+        if (measured->tissue) {
+          printTissue(*measured->tissue);
+        }
       }
       return measurementJson(*measured);
     };

@@ -148,4 +148,16 @@ void printMeasurement(const WoundMeasurement& measurement, const nlohmann::json&
   }
 }
 
+void printTissue(const TissueShares& shares) {
+  std::printf("Tissue, %s:\n", shares.source.c_str());
+  for (std::size_t t = 0; t < kTissues; ++t) {
+    std::printf("  %-22s %10d  %%\n",
+                std::string(nameOf(static_cast<Tissue>(t))).c_str(),
+                shares.percent[t]);
+  }
+  if (shares.unpainted_percent > 0) {
+    std::printf("  %-22s %10d  %%\n", "not painted", shares.unpainted_percent);
+  }
+}
+
 }  // namespace tarsus

@@ -49,6 +49,33 @@ void warnOfSnapping(const std::vector<Eigen::Vector3d>& points_mm,
   }
 }
 
+/// Shares of the tissue in `path`; nothing where none is given.
+Expected<std::optional<TissueShares>> readShares(const std::filesystem::path& path,
+                                                 const TexturedMesh& foot,
+                                                 const WoundOutline& outline,
+                                                 Warnings& warnings) {
+  if (path.empty()) {
+    return std::nullopt;
+  }
+  const auto map = readTissue(path);
+  if (!map) {
+    return tl::unexpected(map.error());
+  }
+  const auto bed = openTissueBed(foot, outline);
+  if (!bed) {
+    return tl::unexpected(bed.error());
+  }
+  auto shares = sharesOf(*bed, *map);
+  if (!shares) {
+    return tl::unexpected(shares.error());
+  }
+  if (!shares->confirmed) {
+    warnings.push_back({"tissue_not_confirmed",
+                        "The tissue shares are a proposal that no clinician has confirmed."});
+  }
+  return std::optional(std::move(*shares));
+}
+
 }  // namespace
 
 void addWoundOptions(CLI::App& sub, WoundArguments& arguments) {
@@ -59,6 +86,8 @@ void addWoundOptions(CLI::App& sub, WoundArguments& arguments) {
   sub.add_option("--skin-curve",
                  arguments.skin_curve,
                  "Where healthy skin begins (same format); default 2 mm outside the outline")
+      ->type_name("FILE");
+  sub.add_option("--tissue", arguments.tissue, "Painted tissue of this model (see tissue)")
       ->type_name("FILE");
   auto* heel = sub.add_option("--heel", arguments.heel_mm, "Heel landmark, for clock directions")
                    ->delimiter(',')
@@ -110,6 +139,10 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
   if (!wound) {
     return tl::unexpected(wound.error());
   }
+  auto tissue = readShares(arguments.tissue, *foot, *outline, warnings);
+  if (!tissue) {
+    return tl::unexpected(tissue.error());
+  }
   std::ranges::copy(warnings, std::back_inserter(wound->numbers.warnings));
   const bool unfit =
       std::ranges::find(foot->comments, "fit_for_measurement no") != foot->comments.end();
@@ -120,11 +153,18 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
   return MeasuredModel{.foot = std::move(*foot),
                        .wound = std::move(*wound),
                        .landmarks = landmarks,
+                       .tissue = std::move(*tissue),
                        .fit_for_measurement = !unfit};
 }
 
 nlohmann::json measurementJson(const MeasuredModel& measured) {
   nlohmann::json result = toJson(measured.wound.numbers);
+  result["tissue_percent"] = nullptr;
+  result["tissue_unpainted_percent"] = nullptr;
+  result["tissue_source"] = nullptr;
+  if (measured.tissue) {
+    result.update(toJson(*measured.tissue));
+  }
   result["version"] = TARSUS_VERSION;
   result["model_sha256"] = measured.foot.sha256;
   return result;

@@ -58,8 +58,15 @@ class Cli : public ::testing::Test {
 
 TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_EQ(cli("--help").exit_code, 0);
-  for (const std::string command :
-       {"simulate", "reconstruct", "texture", "evaluate", "measure", "report", "demo"}) {
+  for (const std::string command : {"simulate",
+                                    "reconstruct",
+                                    "texture",
+                                    "evaluate",
+                                    "measure",
+                                    "tissue",
+                                    "score",
+                                    "report",
+                                    "demo"}) {
     const CliRun run = cli(command + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_NE(run.output.find("--json"), std::string::npos) << run.output;
@@ -87,6 +94,10 @@ TEST_F(Cli, WrongUsageIsTwo) {
                                       "texture a --focus 1,2",
                                       "texture a --card-pitch-mm 12",
                                       "evaluate a.ply b.ply --align maybe",
+                                      "tissue m.ply out.json",
+                                      "score",
+                                      "score apgar i.json",
+                                      "score sinbad",
                                       "measure m.ply --outline o.json --toe 1,2,3"}) {
     EXPECT_EQ(cli(arguments).exit_code, 2) << arguments;
   }
@@ -244,6 +255,52 @@ TEST_F(Cli, TextureRefusesWhatIsNoModelFolder) {
 TEST_F(Cli, AnUnwritableFolderIsSaid) {
   writeText(file("a_file"), "");
   expectRefused("simulate " + file("a_file") + "/scan --frames 1", "file_unwritable");
+}
+
+TEST_F(Cli, AScoreIsPrintedWithItsComponents) {
+  writeText(file("texas.json"), R"({"depth":"tendon","infection":true,"ischaemia":false})");
+  const CliRun run = cli("score texas " + file("texas.json") + " --json " + file("result.json"));
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find("University of Texas: grade 2, stage B"), std::string::npos)
+      << run.output;
+  EXPECT_NE(run.output.find("to tendon or capsule"), std::string::npos) << run.output;
+  const auto json = readJson(file("result.json"));
+  EXPECT_EQ(json.at("points"), 2);
+  EXPECT_TRUE(json.at("version").is_string());
+  EXPECT_TRUE(cli("score texas " + file("texas.json") + " --quiet").output.empty());
+}
+
+TEST_F(Cli, AScoreWithAMissingItemIsNotComputable) {
+  writeText(file("texas.json"), R"({"depth":"tendon","infection":true})");
+  const CliRun run = cli("score texas " + file("texas.json"));
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find("not computable, missing: ischaemia"), std::string::npos) << run.output;
+}
+
+TEST_F(Cli, BadScoreInputsAreRefused) {
+  const std::string command = "score sinbad " + file("sinbad.json");
+  expectRefused(command, "file_missing");
+  for (const char* text :
+       {"", "[]", "{\"aera_cm2\":1}", "{\"area_cm2\":-1}", "{\"site\":\"toe\"}"}) {
+    writeText(file("sinbad.json"), text);
+    expectRefused(command, "score_input_invalid");
+  }
+  writeText(file("sinbad.json"), "{\"aera_cm2\":1}");
+  EXPECT_NE(cli(command).output.find("did you mean \"area_cm2\"?"), std::string::npos);
+}
+
+TEST_F(Cli, TissueFilesThatDoNotFitAreRefused) {
+  writeSquare(file("square.ply"));
+  writeText(file("outline.json"), "{\"points\":[[0,0,400],[10,0,400],[0,10,400]]}");
+  const std::string outline = " --outline " + file("outline.json");
+  // The square has no colours.
+  expectRefused("tissue " + file("square.ply") + " " + file("t.json") + outline, "tissue_invalid");
+  EXPECT_FALSE(fs::exists(file("t.json")));
+  const std::string measure =
+      "measure " + file("square.ply") + outline + " --tissue " + file("t.json");
+  expectRefused(measure, "file_missing");
+  writeText(file("t.json"), R"({"mesh_sha256":"of another","vertices":{"slough":[1]}})");
+  expectRefused(measure, "tissue_invalid");
 }
 
 }  // namespace

@@ -91,8 +91,13 @@ std::vector<Wound> woundsIn(const fs::path& folder) {
         orStop(readOutlinePoints(folder / ("truth/outline_" + std::to_string(i + 1) + ".json")));
     Wound wound;
     wound.name = folder.filename().string() + " " + std::to_string(i + 1);
+    const auto outline = traceOutline(foot, index, points);
+    if (!outline) {
+      std::printf("| %s | %s |\n", wound.name.c_str(), outline.error().detail.c_str());
+      continue;
+    }
     wound.foot = foot;
-    wound.bed = orStop(openTissueBed(foot, orStop(traceOutline(foot, index, points))));
+    wound.bed = orStop(openTissueBed(foot, *outline));
     wound.truth = truthOn(wound.bed, *scene, truth_index);
     wound.fractions = scene->wounds[i].tissue_fraction;
     wounds.push_back(std::move(wound));
