@@ -36,8 +36,14 @@ std::string nearest(std::string_view word, const std::vector<std::string_view>& 
 }
 
 std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  return '"' + std::string(text.substr(0, kLongest)) + '"';
+  std::size_t length = std::min<std::size_t>(text.size(), 40);
+  const auto continues = [&](std::size_t i) {  // within a letter of UTF-8
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
+  };
+  while (length > 0 && continues(length)) {
+    --length;
+  }
+  return '"' + std::string(text.substr(0, length)) + '"';
 }
 
 template <std::size_t N>

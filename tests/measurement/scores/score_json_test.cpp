@@ -141,6 +141,14 @@ TEST(ScoreJson, UnknownKeysAreRefusedWithTheNearestName) {
                         "unknown key \"" + wrong + "\"; did you mean \"" + meant + "\"?");
   }
   test::expectRefused(scoreFromJson("sinbad", {{std::string(100000, 'x'), 1}}), "unknown key");
+  // Cut between letters, so that the sentence can be written as JSON.
+  std::string chinese = "ab";
+  for (int i = 0; i < 30; ++i) {
+    chinese += "\u8db3";
+  }
+  const auto refused = scoreFromJson("sinbad", {{chinese, 1}});
+  ASSERT_FALSE(refused);
+  EXPECT_NO_THROW(static_cast<void>(json(refused.error().detail).dump()));
 }
 
 TEST(ScoreJson, WhatIsNotAnItemIsRefused) {
