@@ -63,6 +63,9 @@ class NearestSegment {
     const Eigen::Vector3d& p = patch_.vertices[v];
     int best = start;
     double best_mm = toSegment(p, start);
+    if (best_mm >= distance_[v]) {
+      return;  // a neighbour was here first, with a segment at least as near
+    }
     for (const int step : {1, -1}) {
       int since_better = 0;
       for (int k = 1; k < count && since_better < kWindow; ++k, ++since_better) {

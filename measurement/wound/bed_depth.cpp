@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tarsus {
 namespace {
@@ -86,15 +87,22 @@ double percentile99(const Bed& bed, std::span<const double> depth_mm) {
     }
     all += 4.0 * area;
   }
-  std::sort(samples.begin(), samples.end());
-  double above = 0.0;
-  for (auto it = samples.rbegin(); it != samples.rend(); ++it) {
-    above += it->second;
-    if (above >= 0.01 * all) {
-      return it->first;
+  // Only the deepest are put in order; where faces differ in size, more of them may be needed.
+  for (std::size_t deepest = samples.size() / 40 + 1;; deepest *= 4) {
+    const std::size_t count = std::min(deepest, samples.size());
+    const auto end = samples.begin() + static_cast<std::ptrdiff_t>(count);
+    std::partial_sort(samples.begin(), end, samples.end(), std::greater<>());
+    double above = 0.0;
+    for (auto it = samples.begin(); it != end; ++it) {
+      above += it->second;
+      if (above >= 0.01 * all) {
+        return it->first;
+      }
+    }
+    if (count == samples.size()) {
+      return 0.0;
     }
   }
-  return 0.0;
 }
 
 BedDepths measureDepths(const Bed& bed, const ReferenceSkin& skin) {

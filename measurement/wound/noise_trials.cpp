@@ -89,13 +89,15 @@ Eigen::MatrixXd correlatedNoise(const Nodes& nodes, double length_mm) {
   return basis * deviates.matrix(2 * kWaves, kTrials) / std::sqrt(static_cast<double>(kWaves));
 }
 
+double correlationLength_mm() {
+  return std::sqrt(ReferenceSkinOptions{}.correlation_area_mm2 / (2.0 * std::numbers::pi));
+}
+
 class Trials {
  public:
   Trials(const Bed& bed, const BedDepths& depths, const ReferenceSkin& skin)
       : bed_(bed), depths_(depths), bed_nodes_(gatherNodes(bed.vertices, kBedCell_mm)) {
-    const double length_mm =
-        std::sqrt(ReferenceSkinOptions{}.correlation_area_mm2 / (2.0 * std::numbers::pi));
-    noise_ = correlatedNoise(bed_nodes_, length_mm);
+    noise_ = correlatedNoise(bed_nodes_, correlationLength_mm());
     moveSkin(skin);
     layFaces();
   }
@@ -116,7 +118,6 @@ class Trials {
     Quantities q = volumes(depth, along_bed, lift);
     q["max_depth_mm"] = *std::max_element(depth.begin(), depth.end());
     q["p99_depth_mm"] = percentile99(bed_, depth);
-    q["bed_area_mm2"] = bedArea(along_bed);
     q["perimeter_mm"] = perimeterOf(bed_, depths_, depth);
     return q;
   }
@@ -145,13 +146,13 @@ class Trials {
   }
 
   void layFaces() {
-    normals_.assign(bed_.vertices.size(), Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> normals(bed_.vertices.size(), Eigen::Vector3d::Zero());
     for (const auto& f : bed_.faces) {
       const Eigen::Vector3d twice = (bed_.vertices[f[1]] - bed_.vertices[f[0]])
                                         .cross(bed_.vertices[f[2]] - bed_.vertices[f[0]]);
       Eigen::Vector3d up = Eigen::Vector3d::Zero();
       for (const int v : f) {
-        normals_[v] += twice;
+        normals[v] += twice;
         up += depths_.feet[v].normal;
       }
       const auto& a = depths_.feet[f[0]].position_mm;
@@ -160,9 +161,8 @@ class Trials {
                                             .cross(depths_.feet[f[2]].position_mm - a)
                                             .dot(up.normalized()));
     }
-    for (std::size_t i = 0; i < normals_.size(); ++i) {
-      normals_[i].normalize();
-      cosine_.push_back(std::max(0.0, normals_[i].dot(depths_.feet[i].normal)));
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      cosine_.push_back(std::max(0.0, normals[i].normalized().dot(depths_.feet[i].normal)));
     }
   }
 
@@ -189,29 +189,30 @@ class Trials {
             {"mean_depth_mm", below_mm3 / depths_.opening_mm2}};
   }
 
-  [[nodiscard]] double bedArea(const std::vector<double>& along_bed) const {
-    double area = 0.0;
-    for (const auto& f : bed_.faces) {
-      const auto at = [&](int k) -> Eigen::Vector3d {
-        return bed_.vertices[f[k]] + along_bed[f[k]] * normals_[f[k]];
-      };
-      const Eigen::Vector3d a = at(0);
-      area += 0.5 * (at(1) - a).cross(at(2) - a).norm();
-    }
-    return area;
-  }
-
   const Bed& bed_;
   const BedDepths& depths_;
   Nodes bed_nodes_;
   Nodes skin_nodes_;
   Eigen::MatrixXd noise_;       ///< #bed nodes x kTrials, variance 1
   Eigen::MatrixXd skin_shift_;  ///< #skin nodes x kTrials, outward [mm]
-  std::vector<Eigen::Vector3d> normals_;
   std::vector<double> cosine_;  ///< between bed and skin
   std::vector<double> face_bed_mm2_;
   std::vector<double> face_opening_mm2_;
 };
+
+/// What the relief of noise adds to the area of a surface: half its mean squared slope.
+double areaOfRelief(const Bed& bed) {
+  double added = 0.0;
+  for (const auto& f : bed.faces) {
+    const double area = 0.5 * (bed.vertices[f[1]] - bed.vertices[f[0]])
+                                  .cross(bed.vertices[f[2]] - bed.vertices[f[0]])
+                                  .norm();
+    for (const int v : f) {
+      added += area / 3.0 * std::pow(bed.sigma_mm[v] / correlationLength_mm(), 2);
+    }
+  }
+  return added;
+}
 
 }  // namespace
 
@@ -248,7 +249,7 @@ ModelSpread tryNoise(const Bed& bed,
       spread.deviation[name] = is_area ? area : sigma_mm * std::numbers::sqrt2;
     }
   }
-  spread.deviation["bed_area_mm2"] = std::hypot(spread.deviation["bed_area_mm2"], area);
+  spread.bias["bed_area_mm2"] = areaOfRelief(bed);
   return spread;
 }
 

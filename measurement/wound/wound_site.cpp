@@ -3,7 +3,9 @@
 #include "measurement/wound/bed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace tarsus {
 namespace {
@@ -112,6 +114,41 @@ void offsetSkinCurve(double offset_mm, WoundSite& site) {
   }
 }
 
+/// One sample a cell of a dense model: finer than its noise is correlated, a mesh says nothing
+/// more.
+std::vector<SkinSample> thinned(const std::vector<SkinSample>& samples) {
+  constexpr std::size_t kEnough = 6000;
+  constexpr double kCell_mm = 0.75;
+  if (samples.size() <= kEnough) {
+    return samples;
+  }
+  std::map<std::array<int, 3>, SkinSample> cells;  // sorted: the same order everywhere
+  for (const SkinSample& s : samples) {
+    const auto place = [](double x) { return static_cast<int>(std::floor(x / kCell_mm)); };
+    SkinSample& sum =
+        cells[{place(s.position_mm.x()), place(s.position_mm.y()), place(s.position_mm.z())}];
+    if (!(sum.area_mm2 > 0.0)) {
+      sum.sigma_mm = 0.0;
+    }
+    sum.position_mm += s.area_mm2 * s.position_mm;
+    sum.normal += s.area_mm2 * s.normal;
+    sum.sigma_mm += s.area_mm2 / (s.sigma_mm * s.sigma_mm);
+    sum.outside_mm += s.area_mm2 * s.outside_mm;
+    sum.area_mm2 += s.area_mm2;
+  }
+  std::vector<SkinSample> few;
+  for (auto& [place, sum] : cells) {
+    if (sum.normal.norm() > 0.0) {
+      few.push_back({.position_mm = sum.position_mm / sum.area_mm2,
+                     .normal = sum.normal.normalized(),
+                     .area_mm2 = sum.area_mm2,
+                     .sigma_mm = std::sqrt(sum.area_mm2 / sum.sigma_mm),
+                     .outside_mm = sum.outside_mm / sum.area_mm2});
+    }
+  }
+  return few;
+}
+
 }  // namespace
 
 Expected<WoundSite> openSite(const TexturedMesh& foot,
@@ -188,7 +225,7 @@ std::vector<SkinSample> skinSamples(const TexturedMesh& foot,
       samples.push_back(sample);
     }
   }
-  return samples;
+  return thinned(samples);
 }
 
 std::optional<CutMesh> movedOutline(const WoundSite& site, double shift_mm) {

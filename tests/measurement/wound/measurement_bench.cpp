@@ -1,11 +1,15 @@
 /// Prints the tables of the measurement: exact surfaces, noise, callus, and how often the intervals
-/// hold the truth. Run: tarsus-bench-measurement exact|noise|callus|coverage [trials]
+/// hold the truth. Run: tarsus-bench-measurement exact|noise|callus|coverage|speed [trials]
 
 #include "reconstruction/base/parallel.h"
 #include "tests/measurement/wound/bench_wounds.h"
 #include "tests/measurement/wound/measured.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -203,6 +207,51 @@ void coverageTable(int trials) {
   }
 }
 
+/// A bowl on a cylinder of a million faces: times after an edit, medians.
+void speedTable() {
+  constexpr int kRuns = 7;
+  const test::Skin skin = test::cylinderSkin(44.0);
+  const test::Relief relief = test::bowl(10.0, 3.0);
+  const auto foot =
+      test::withQuality(test::woundMesh(skin, relief, {.half_size_mm = 60.0, .edge_mm = 0.17}));
+  const MeshIndex index(foot.mesh);
+  const auto points = test::circleOn(skin, relief, 10.0, 40);
+  std::array<std::vector<double>, 3> times_ms;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto timed = [&](std::size_t k, const auto& work) {
+      const auto start = std::chrono::steady_clock::now();
+      const bool done = work();
+      const std::chrono::duration<double, std::milli> taken =
+          std::chrono::steady_clock::now() - start;
+      times_ms[k].push_back(done ? taken.count() : std::nan(""));
+    };
+    std::optional<WoundOutline> outline;
+    MeasureOptions options;
+    timed(0, [&] {
+      auto traced = traceOutline(foot, index, points);
+      if (traced) {
+        outline = std::move(*traced);
+      }
+      return outline.has_value();
+    });
+    options.intervals = false;
+    timed(1, [&] { return measureWound(foot, *outline, {}, {}, options).has_value(); });
+    options.intervals = true;
+    timed(2, [&] { return measureWound(foot, *outline, {}, {}, options).has_value(); });
+  }
+  const std::array<const char*, 3> names{"outline anew", "all numbers", "the same with intervals"};
+  std::printf("%zu faces, wound of radius 10 mm, median of %d\n", foot.mesh.faces.size(), kRuns);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::sort(times_ms[k].begin(), times_ms[k].end());
+    std::printf("%-26s %8.0f ms\n", names[k], times_ms[k][kRuns / 2]);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%-26s %8.0f MB (the model's making included)\n",
+              "peak memory",
+              static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -214,10 +263,13 @@ int main(int argc, char** argv) {
     noiseTable(count > 1 ? count : 20);
   } else if (what == "callus") {
     callusTable();
+  } else if (what == "speed") {
+    speedTable();
   } else if (what == "coverage") {
     coverageTable(count > 1 ? count : 200);
   } else {
-    std::fprintf(stderr, "usage: tarsus-bench-measurement exact|noise|callus|coverage [trials]\n");
+    std::fprintf(stderr,
+                 "usage: tarsus-bench-measurement exact|noise|callus|coverage|speed [trials]\n");
     return 2;
   }
   return 0;
