@@ -65,12 +65,13 @@ TEST_P(MeasureExact, AgreesWithTheTruthOnKnownSkins) {
     // The targets that the method is held to (areas and lengths 0.5 %, volume 2 %, 0.1 mm); a mesh
     // of 1 mm edges cuts the corner between wall and skin, most where the wound is small.
     const double coarse = GetParam() > 0.7 ? 2.0 : 1.0;
-    // Facets round the rim off, and the outline snaps outward onto them by some hundredths.
-    const double rim_mm2 = 0.03 * GetParam() * truth.perimeter_mm;
-    EXPECT_NEAR(*m.opening_area_mm2, truth.opening_mm2, 0.005 * truth.opening_mm2 + rim_mm2);
-    EXPECT_NEAR(*m.bed_area_mm2, truth.bed_mm2, 0.01 * coarse * truth.bed_mm2);
+    EXPECT_NEAR(*m.opening_area_mm2, truth.opening_mm2, 0.005 * truth.opening_mm2);
+    // Facets round the rim off: the curve, carried along the skin's normal, lies some hundredths
+    // of a millimetre down the wall, and the bed lacks the strip above it.
+    const double strip_mm2 = 0.04 * GetParam() * truth.perimeter_mm;
+    EXPECT_NEAR(*m.bed_area_mm2, truth.bed_mm2, 0.005 * truth.bed_mm2 + strip_mm2);
     EXPECT_NEAR(*m.perimeter_mm, truth.perimeter_mm, 0.005 * coarse * truth.perimeter_mm);
-    EXPECT_NEAR(*m.volume_mm3, truth.volume_mm3, 0.02 * coarse * truth.volume_mm3);
+    EXPECT_NEAR(*m.volume_mm3, truth.volume_mm3, 0.02 * truth.volume_mm3);
     EXPECT_NEAR(*m.max_depth_mm, w.depth_mm, 0.1);
     EXPECT_LE(*m.p99_depth_mm, *m.max_depth_mm);
     EXPECT_NEAR(*m.mean_depth_mm, *m.volume_mm3 / *m.opening_area_mm2, 1e-12);
