@@ -147,6 +147,14 @@ void findStars(SurfacePatch& patch) {
   }
 }
 
+double distanceToEdge(const Eigen::Vector3d& p,
+                      const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - a - t * along).norm();
+}
+
 /// A border edge belongs to the model where an end lies inside the ball: the ball's own rim runs
 /// through faces whose outer vertices lie outside.
 void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool whole) {
@@ -160,6 +168,11 @@ void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool
       const int b = patch.faces[i][(k + 1) % 3];
       const bool model =
           whole || inside_ball[patch.mesh_vertex[a]] != 0 || inside_ball[patch.mesh_vertex[b]] != 0;
+      if (!model) {
+        patch.clear_radius_mm =
+            std::min(patch.clear_radius_mm,
+                     distanceToEdge(patch.center_mm, patch.vertices[a], patch.vertices[b]));
+      }
       for (const int v : {a, b}) {
         if (model) {
           patch.border[v] = PatchBorder::Model;
@@ -183,23 +196,26 @@ SurfacePatch extractPatch(const TriangleMesh& mesh,
     inside[i] = (mesh.vertices[i] - center).squaredNorm() <= radius2 ? 1 : 0;
   }
   SurfacePatch patch;
+  patch.center_mm = center_mm;
   std::vector<int> local(mesh.vertices.size(), -1);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const Eigen::Vector3i& f = mesh.faces[i];
     if (inside[f[0]] == 0 && inside[f[1]] == 0 && inside[f[2]] == 0) {
       continue;
     }
-    std::array<int, 3> face{};
-    for (int k = 0; k < 3; ++k) {
-      if (local[f[k]] < 0) {
-        local[f[k]] = static_cast<int>(patch.vertices.size());
-        patch.vertices.emplace_back(mesh.vertices[f[k]].cast<double>());
-        patch.mesh_vertex.push_back(f[k]);
-      }
-      face[k] = local[f[k]];
-    }
-    patch.faces.push_back(face);
+    patch.faces.push_back({f[0], f[1], f[2]});
     patch.mesh_face.push_back(static_cast<int>(i));
+    local[f[0]] = local[f[1]] = local[f[2]] = 0;
+  }
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] == 0) {
+      local[i] = static_cast<int>(patch.vertices.size());
+      patch.vertices.emplace_back(mesh.vertices[i].cast<double>());
+      patch.mesh_vertex.push_back(static_cast<int>(i));
+    }
+  }
+  for (auto& face : patch.faces) {
+    face = {local[face[0]], local[face[1]], local[face[2]]};
   }
   const bool whole = patch.faces.size() == mesh.faces.size();
   weld(patch);
