@@ -11,11 +11,6 @@
 namespace tarsus {
 namespace {
 
-/// Points on the straight line between their neighbours to within this add nothing to the curve
-/// but the zigzag of snapping them to a rough surface. On a circle of 10 mm radius it keeps a point
-/// each 0.9 mm, which takes 0.1 % from the area.
-constexpr double kSimplify_mm = 0.01;
-
 std::string millimetres(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2f mm", value);
@@ -85,7 +80,7 @@ Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
   }
   GrowingPatch local(foot.mesh);
   local.cover(snapped->positions);
-  const std::vector<int> essential = essentialPoints(points_mm, kSimplify_mm);
+  const std::vector<int> essential = essentialPoints(points_mm, kOutlineSimplify_mm);
   std::vector<OutlinePiece> pieces;
   for (std::size_t i = 0; i < essential.size(); ++i) {
     pieces.push_back(tracePiece(local,

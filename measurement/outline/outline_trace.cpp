@@ -56,6 +56,16 @@ double area(const CutMesh& cut, bool left) {
   return areaOf(cut, left ? CurveSide::Left : CurveSide::Right);
 }
 
+std::vector<int> facesInside(const SurfacePatch& patch, const CutMesh& cut, CurveSide inside) {
+  std::vector<int> faces;
+  for (std::size_t i = 0; i < cut.faces.size(); ++i) {
+    if (cut.sides[i] == inside && cut.faces[i] == patch.faces[cut.parents[i]]) {
+      faces.push_back(patch.mesh_face[cut.parents[i]]);
+    }
+  }
+  return faces;
+}
+
 /// Which side of the cut is the smaller on the whole model; nothing where the patch cannot tell.
 std::optional<bool> leftIsInside(const CutMesh& cut) {
   const bool left_inside = area(cut, true) <= area(cut, false);
@@ -144,6 +154,7 @@ tl::expected<TracedOutline, OutlineProblem> closePieces(
     TracedOutline traced;
     traced.area_mm2 = area(*cut, *left_inside);
     traced.perimeter_mm = lengthOf(patch, *curve);
+    traced.inside = facesInside(patch, *cut, *left_inside ? CurveSide::Left : CurveSide::Right);
     if (traced.area_mm2 < kSmallestArea_mm2) {
       return tl::unexpected(invalid("it encloses no area", start_mm));
     }

@@ -10,6 +10,11 @@
 
 namespace tarsus {
 
+/// Points on the straight line between their neighbours to within this add nothing to the curve
+/// but the zigzag of snapping them to a rough surface. On a circle of 10 mm radius it keeps a point
+/// each 0.9 mm, which takes 0.1 % from the area.
+inline constexpr double kOutlineSimplify_mm = 0.01;
+
 /// What is wrong with an outline, and where: for the place to be shown.
 struct OutlineProblem {
   Error error;
@@ -27,6 +32,7 @@ struct TracedOutline {
   WoundOutline outline;
   double area_mm2 = 0.0;  ///< of the surface inside, cut exactly
   double perimeter_mm = 0.0;
+  std::vector<int> inside;  ///< the mesh's faces that lie wholly inside, ascending
 };
 
 /// Bound point as it is used: half a micrometre from an edge or vertex is on it.

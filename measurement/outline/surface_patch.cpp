@@ -91,45 +91,6 @@ void weld(SurfacePatch& patch) {
   patch.mesh_face.resize(kept_faces);
 }
 
-struct FaceSide {
-  int low = 0;
-  int high = 0;
-  int face = 0;
-  int corner = 0;
-};
-
-/// Two faces are neighbours where they alone share an edge and run along it in opposite senses;
-/// anything else counts as a border.
-void findNeighbors(SurfacePatch& patch) {
-  std::vector<FaceSide> sides;
-  sides.reserve(patch.faces.size() * 3);
-  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = patch.faces[i][k];
-      const int b = patch.faces[i][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), i, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
-  patch.neighbors.assign(patch.faces.size(), {-1, -1, -1});
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].low == sides[i].low &&
-           sides[end].high == sides[i].high) {
-      ++end;
-    }
-    const FaceSide& a = sides[i];
-    const FaceSide& b = sides[end - 1];
-    if (end - i == 2 && patch.faces[a.face][a.corner] != patch.faces[b.face][b.corner]) {
-      patch.neighbors[a.face][a.corner] = b.face;
-      patch.neighbors[b.face][b.corner] = a.face;
-    }
-    i = end;
-  }
-}
-
 void findStars(SurfacePatch& patch) {
   patch.star_begin.assign(patch.vertices.size() + 1, 0);
   for (const auto& f : patch.faces) {
@@ -143,6 +104,32 @@ void findStars(SurfacePatch& patch) {
   for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
     for (const int v : patch.faces[i]) {
       patch.star[next[v]++] = i;
+    }
+  }
+}
+
+/// Two faces are neighbours where they alone share an edge and run along it in opposite senses;
+/// anything else counts as a border.
+int neighborAcross(const SurfacePatch& patch, int face, int corner) {
+  const int a = patch.faces[face][corner];
+  const int b = patch.faces[face][(corner + 1) % 3];
+  int other = -1;
+  for (const int candidate : patch.starOf(a)) {
+    if (candidate != face && patch.cornerOf(candidate, b) >= 0) {
+      if (other >= 0) {
+        return -1;
+      }
+      other = candidate;
+    }
+  }
+  return other >= 0 && patch.faces[other][(patch.cornerOf(other, b) + 1) % 3] == a ? other : -1;
+}
+
+void findNeighbors(SurfacePatch& patch) {
+  patch.neighbors.assign(patch.faces.size(), {-1, -1, -1});
+  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      patch.neighbors[i][k] = neighborAcross(patch, i, k);
     }
   }
 }
@@ -219,8 +206,8 @@ SurfacePatch extractPatch(const TriangleMesh& mesh,
   }
   const bool whole = patch.faces.size() == mesh.faces.size();
   weld(patch);
-  findNeighbors(patch);
   findStars(patch);
+  findNeighbors(patch);
   findBorders(patch, inside, whole);
   return patch;
 }

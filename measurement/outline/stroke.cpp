@@ -1,0 +1,219 @@
+#include "measurement/outline/stroke.h"
+
+#include "measurement/outline/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tarsus {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// Places nearer to each other than this say nothing new.
+constexpr double kSpacing_mm = 0.3;
+/// Where a stroke overlaps itself, its ends are looked for in so much of it at either end.
+constexpr double kTailShare = 0.3;
+/// Cutting 1 mm off costs as much as joining ends this much farther apart.
+constexpr double kTailCost = 0.2;
+/// A stroke whose ends are nearer than this share of its length is meant to be closed.
+constexpr double kClosedShare = 0.2;
+
+struct BoundStroke {
+  std::vector<SurfacePoint> points;
+  Points positions;
+};
+
+tl::expected<BoundStroke, OutlineProblem> bind(const OutlineEditor& editor,
+                                               std::span<const Eigen::Vector3d> stroke_mm,
+                                               const ClickOptions& options) {
+  BoundStroke stroke;
+  for (const Eigen::Vector3d& place : stroke_mm) {
+    if (!stroke.points.empty() && (place - stroke.positions.back()).norm() < kSpacing_mm &&
+        &place != &stroke_mm.back()) {
+      continue;
+    }
+    const auto point = bindClick(editor, place, options);
+    if (!point) {
+      return tl::unexpected(point.error());
+    }
+    stroke.points.push_back(*point);
+    stroke.positions.push_back(positionOf(editor.foot().mesh, *point));
+  }
+  return stroke;
+}
+
+/// Length of the polyline up to each point.
+std::vector<double> lengths(const Points& points) {
+  std::vector<double> along(points.size(), 0.0);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    along[i] = along[i - 1] + (points[i] - points[i - 1]).norm();
+  }
+  return along;
+}
+
+/// The part of a stroke that goes around once: [first, last].
+std::pair<std::size_t, std::size_t> onceAround(const Points& points) {
+  const auto along = lengths(points);
+  const double whole = along.back();
+  std::pair<std::size_t, std::size_t> best(0, points.size() - 1);
+  double least = (points.front() - points.back()).norm();
+  for (std::size_t i = 0; i < points.size() && along[i] <= kTailShare * whole; ++i) {
+    for (std::size_t j = points.size() - 1; j > i && whole - along[j] <= kTailShare * whole; --j) {
+      const double cost =
+          (points[i] - points[j]).norm() + kTailCost * (along[i] + whole - along[j]);
+      if (cost < least) {
+        least = cost;
+        best = {i, j};
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<SurfacePoint> chosen(const std::vector<SurfacePoint>& points,
+                                 const std::vector<int>& indices) {
+  std::vector<SurfacePoint> clicks;
+  for (const int i : indices) {
+    clicks.push_back(points[i]);
+  }
+  return clicks;
+}
+
+OutlineProblem invalid(std::string detail, const Eigen::Vector3d& at_mm) {
+  return {.error = {.code = ErrorCode::OutlineInvalid, .detail = std::move(detail)},
+          .at_mm = at_mm};
+}
+
+OutlineEditor newOutline(const OutlineEditor& editor,
+                         const BoundStroke& stroke,
+                         const StrokeOptions& options) {
+  const auto [first, last] = onceAround(stroke.positions);
+  const Points once(stroke.positions.begin() + first, stroke.positions.begin() + last + 1);
+  auto clicks = chosen({stroke.points.begin() + first, stroke.points.begin() + last + 1},
+                       essentialPoints(once, options.tolerance_mm));
+  return editor.with(
+      {.points = std::move(clicks), .closed = true, .smooth = editor.clicks().smooth});
+}
+
+double distanceTo(const Points& polyline, const Eigen::Vector3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& q : polyline) {
+    least = std::min(least, (p - q).norm());
+  }
+  return least;
+}
+
+/// Which of the two ways around from `start` to `end` runs beside the stroke: true, the forward
+/// one.
+bool besideForward(const OutlineEditor& editor,
+                   const Points& stroke,
+                   double start_mm,
+                   double end_mm) {
+  Points line;
+  for (const auto& piece : editor.line()) {
+    for (const SurfacePoint& point : piece) {
+      line.push_back(positionOf(editor.foot().mesh, point));
+    }
+  }
+  const auto along = lengths(line);
+  std::array<double, 2> sum{};
+  std::array<double, 2> weight{1e-9, 1e-9};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double middle = 0.5 * (along[i] + along[i - 1]);
+    const bool forward = start_mm <= end_mm ? middle > start_mm && middle < end_mm
+                                            : middle > start_mm || middle < end_mm;
+    const double length = along[i] - along[i - 1];
+    sum[forward ? 0 : 1] += length * distanceTo(stroke, line[i]);
+    weight[forward ? 0 : 1] += length;
+  }
+  return sum[0] / weight[0] <= sum[1] / weight[1];
+}
+
+/// Puts the stroke in the place of the clicks beside it.
+OutlineEditor withPieceReplaced(const OutlineEditor& editor,
+                                const BoundStroke& stroke,
+                                const StrokeOptions& options) {
+  const auto start = nearestOnLine(editor, stroke.positions.front());
+  const auto end = nearestOnLine(editor, stroke.positions.back());
+  const bool forward = besideForward(editor, stroke.positions, start->along_mm, end->along_mm);
+  auto fresh = chosen(stroke.points, essentialPointsOfOpen(stroke.positions, options.tolerance_mm));
+  fresh.front() = bindClick(editor, start->position_mm, {}).value_or(fresh.front());
+  fresh.back() = bindClick(editor, end->position_mm, {}).value_or(fresh.back());
+  double from_mm = start->along_mm;
+  double to_mm = end->along_mm;
+  if (!forward) {
+    std::reverse(fresh.begin(), fresh.end());
+    std::swap(from_mm, to_mm);
+  }
+  // What stays, in order from the end of the replaced piece on.
+  struct Kept {
+    double after_mm;
+    SurfacePoint point;
+  };
+  std::vector<Kept> kept;
+  double click_mm = 0.0;
+  double whole_mm = 0.0;
+  std::vector<double> click_at;
+  for (const auto& piece : editor.line()) {
+    click_at.push_back(whole_mm);
+    for (std::size_t i = 1; i < piece.size(); ++i) {
+      whole_mm +=
+          (positionOf(editor.foot().mesh, piece[i]) - positionOf(editor.foot().mesh, piece[i - 1]))
+              .norm();
+    }
+  }
+  const double replaced_mm = from_mm <= to_mm ? to_mm - from_mm : whole_mm - from_mm + to_mm;
+  for (std::size_t i = 0; i < click_at.size(); ++i) {
+    click_mm = click_at[i] - to_mm;
+    click_mm += click_mm < 0.0 ? whole_mm : 0.0;
+    const bool stays =
+        click_mm > options.tolerance_mm && click_mm < whole_mm - replaced_mm - options.tolerance_mm;
+    if (stays) {
+      kept.push_back({click_mm, editor.clicks().points[i]});
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) {
+    return a.after_mm < b.after_mm;
+  });
+  for (const Kept& click : kept) {
+    fresh.push_back(click.point);
+  }
+  return editor.with(
+      {.points = std::move(fresh), .closed = true, .smooth = editor.clicks().smooth});
+}
+
+}  // namespace
+
+OutlineEditor drawStroke(const OutlineEditor& editor,
+                         std::span<const Eigen::Vector3d> stroke_mm,
+                         const StrokeOptions& options) {
+  const auto stroke = bind(editor, stroke_mm, options.click);
+  if (!stroke) {
+    return editor.refusing(stroke.error());
+  }
+  if (stroke->points.size() < 3) {
+    return editor.refusing(
+        invalid("the stroke is too short",
+                stroke->positions.empty() ? Eigen::Vector3d::Zero() : stroke->positions.front()));
+  }
+  if (!editor.clicks().closed) {
+    return newOutline(editor, *stroke, options);
+  }
+  const auto start = nearestOnLine(editor, stroke->positions.front());
+  const auto end = nearestOnLine(editor, stroke->positions.back());
+  const bool meets = start && end && start->distance_mm <= options.reach_mm &&
+                     end->distance_mm <= options.reach_mm;
+  const double gap_mm = (stroke->positions.front() - stroke->positions.back()).norm();
+  const bool closes = gap_mm < kClosedShare * lengths(stroke->positions).back();
+  if (meets && !closes) {
+    return withPieceReplaced(editor, *stroke, options);
+  }
+  return closes ? newOutline(editor, *stroke, options)
+                : editor.refusing(invalid("the stroke neither starts and ends on the outline nor "
+                                          "closes itself",
+                                          stroke->positions.back()));
+}
+
+}  // namespace tarsus
