@@ -1,6 +1,7 @@
 #include "measurement/outline/outline_edits.h"
 
 #include "measurement/outline/edge_snap.h"
+#include "measurement/outline/segment.h"
 #include "measurement/outline/simplify.h"
 #include "reconstruction/base/require.h"
 
@@ -62,16 +63,12 @@ std::optional<PlaceOnLine> nearestOnLine(const OutlineEditor& editor,
     Eigen::Vector3d a = positionOf(editor.foot().mesh, piece.front());
     for (std::size_t i = 1; i < piece.size(); ++i) {
       const Eigen::Vector3d b = positionOf(editor.foot().mesh, piece[i]);
-      const double length2 = (b - a).squaredNorm();
-      const double t =
-          length2 > 0.0 ? std::clamp((place_mm - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
-      const Eigen::Vector3d p = a + t * (b - a);
-      const double d = (place_mm - p).norm();
-      if (!best || d < best->distance_mm) {
+      const NearestOnSegment near = nearestOnSegment(place_mm, a, b);
+      if (!best || near.distance < best->distance_mm) {
         best = {.piece = number,
-                .along_mm = along_mm + (p - a).norm(),
-                .distance_mm = d,
-                .position_mm = p};
+                .along_mm = along_mm + (near.position - a).norm(),
+                .distance_mm = near.distance,
+                .position_mm = near.position};
       }
       along_mm += (b - a).norm();
       a = b;

@@ -1,18 +1,11 @@
 #include "measurement/outline/simplify.h"
 
+#include "measurement/outline/segment.h"
+
 #include <algorithm>
 
 namespace tarsus {
 namespace {
-
-double distanceToSegment(const Eigen::Vector3d& p,
-                         const Eigen::Vector3d& a,
-                         const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
 
 /// Marks what is farther than the tolerance from the line through what is kept of [begin, end];
 /// indices go around.
@@ -28,7 +21,7 @@ void keepEssential(std::span<const Eigen::Vector3d> points,
     int worst = -1;
     double worst_mm = tolerance_mm;
     for (int i = begin + 1; i < end; ++i) {
-      const double d = distanceToSegment(at(i), at(begin), at(end));
+      const double d = nearestOnSegment(at(i), at(begin), at(end)).distance;
       if (d > worst_mm) {
         worst = i;
         worst_mm = d;

@@ -1,5 +1,6 @@
 #include "measurement/outline/stroke.h"
 
+#include "measurement/outline/segment.h"
 #include "measurement/outline/simplify.h"
 
 #include <algorithm>
@@ -86,23 +87,67 @@ OutlineProblem invalid(std::string detail, const Eigen::Vector3d& at_mm) {
           .at_mm = at_mm};
 }
 
-OutlineEditor newOutline(const OutlineEditor& editor,
-                         const BoundStroke& stroke,
-                         const StrokeOptions& options) {
-  const auto [first, last] = onceAround(stroke.positions);
-  const Points once(stroke.positions.begin() + first, stroke.positions.begin() + last + 1);
-  auto clicks = chosen({stroke.points.begin() + first, stroke.points.begin() + last + 1},
-                       essentialPoints(once, options.tolerance_mm));
-  return editor.with(
-      {.points = std::move(clicks), .closed = true, .smooth = editor.clicks().smooth});
-}
-
 double distanceTo(const Points& polyline, const Eigen::Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& q : polyline) {
-    least = std::min(least, (p - q).norm());
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    least = std::min(least, nearestOnSegment(p, polyline[i - 1], polyline[i]).distance);
   }
   return least;
+}
+
+/// Of the stroke between two of its points, the one farthest from the line there, if that is
+/// farther than the tolerance.
+int strayPoint(const BoundStroke& stroke,
+               std::pair<int, int> between,
+               const Points& line,
+               double tolerance_mm) {
+  const int count = static_cast<int>(stroke.points.size());
+  int worst = -1;
+  for (int i = between.first + 1; i < between.second; ++i) {
+    const double d = distanceTo(line, stroke.positions[i % count]);
+    if (d > tolerance_mm) {
+      worst = i % count;
+      tolerance_mm = d;
+    }
+  }
+  return worst;
+}
+
+OutlineEditor newOutline(const OutlineEditor& editor,
+                         const BoundStroke& whole,
+                         const StrokeOptions& options) {
+  const auto [first, last] = onceAround(whole.positions);
+  const BoundStroke stroke{{whole.points.begin() + first, whole.points.begin() + last + 1},
+                           {whole.positions.begin() + first, whole.positions.begin() + last + 1}};
+  const bool smooth = editor.clicks().smooth;
+  const int count = static_cast<int>(stroke.points.size());
+  std::vector<int> kept = essentialPoints(stroke.positions, options.tolerance_mm);
+  while (true) {
+    const OutlineEditor next =
+        editor.with({.points = chosen(stroke.points, kept), .closed = true, .smooth = smooth});
+    if (!smooth || kept.size() < 3) {
+      return next;
+    }
+    // A spline bulges where straights and bends meet: more clicks there, until it does not.
+    const auto line = next.line();
+    std::vector<int> more = kept;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const int end = i + 1 < kept.size() ? kept[i + 1] : kept[0] + count;
+      Points places;
+      for (const SurfacePoint& point : line[i]) {
+        places.push_back(positionOf(editor.foot().mesh, point));
+      }
+      const int stray = strayPoint(stroke, {kept[i], end}, places, 0.5 * options.tolerance_mm);
+      if (stray >= 0) {
+        more.push_back(stray);
+      }
+    }
+    if (more.size() == kept.size()) {
+      return next;
+    }
+    std::sort(more.begin(), more.end());
+    kept = std::move(more);
+  }
 }
 
 /// Which of the two ways around from `start` to `end` runs beside the stroke: true, the forward

@@ -1,5 +1,7 @@
 #include "measurement/outline/surface_patch.h"
 
+#include "measurement/outline/segment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -134,14 +136,6 @@ void findNeighbors(SurfacePatch& patch) {
   }
 }
 
-double distanceToEdge(const Eigen::Vector3d& p,
-                      const Eigen::Vector3d& a,
-                      const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
 /// A border edge belongs to the model where an end lies inside the ball: the ball's own rim runs
 /// through faces whose outer vertices lie outside.
 void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool whole) {
@@ -156,9 +150,9 @@ void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool
       const bool model =
           whole || inside_ball[patch.mesh_vertex[a]] != 0 || inside_ball[patch.mesh_vertex[b]] != 0;
       if (!model) {
-        patch.clear_radius_mm =
-            std::min(patch.clear_radius_mm,
-                     distanceToEdge(patch.center_mm, patch.vertices[a], patch.vertices[b]));
+        patch.clear_radius_mm = std::min(
+            patch.clear_radius_mm,
+            nearestOnSegment(patch.center_mm, patch.vertices[a], patch.vertices[b]).distance);
       }
       for (const int v : {a, b}) {
         if (model) {
