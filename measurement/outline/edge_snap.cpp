@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_set>
@@ -19,6 +20,9 @@ constexpr double kConcaveShare = 0.7;
 constexpr double kGrid_mm = 0.25;
 /// A farther edge must be stronger: at the radius twice as strong as beside the place.
 constexpr double kDistancePenalty = 0.5;
+
+/// Vertices count up to so many scales away.
+constexpr double kReach = 2.5;
 
 /// A vertex laid flat around the place.
 struct Sample {
@@ -46,22 +50,27 @@ class Surroundings {
     layFlat(foot);
   }
 
-  /// Change of colour, of the normal.
+  /// Change of the normal, of colour.
   [[nodiscard]] std::array<Change, 2> at(const Eigen::Vector2d& x) const {
     // Weighted straight-line fit of the six values over the chart; the slopes are what counts.
     Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
     Eigen::Matrix<double, 3, 6> right = Eigen::Matrix<double, 3, 6>::Zero();
     const double scale2 = options_.scale_mm * options_.scale_mm;
-    for (const Sample& s : samples_) {
-      const Eigen::Vector2d d = s.at - x;
+    const double reach_mm = kReach * options_.scale_mm;
+    auto s = std::lower_bound(
+        samples_.begin(), samples_.end(), x.x() - reach_mm, [](const Sample& a, double left) {
+          return a.at.x() < left;
+        });
+    for (; s != samples_.end() && s->at.x() <= x.x() + reach_mm; ++s) {
+      const Eigen::Vector2d d = s->at - x;
       const double q = d.squaredNorm() / scale2;
-      if (q > 6.25) {
+      if (q > kReach * kReach) {
         continue;
       }
-      const double w = s.area_mm2 * std::exp(-0.5 * q);
+      const double w = s->area_mm2 * std::exp(-0.5 * q);
       const Eigen::Vector3d row(1.0, d.x(), d.y());
       Eigen::Matrix<double, 1, 6> values;
-      values << s.lab.transpose(), s.normal.transpose();
+      values << s->lab.transpose(), s->normal.transpose();
       normal_matrix += w * row * row.transpose();
       right += w * row * values;
     }
@@ -71,7 +80,7 @@ class Surroundings {
     }
     const Eigen::Matrix<double, 2, 6> slopes =
         normal_matrix.ldlt().solve(right).template bottomRows<2>();
-    return {colorChange(slopes.leftCols<3>()), crease(slopes.rightCols<3>())};
+    return {crease(slopes.rightCols<3>()), colorChange(slopes.leftCols<3>())};
   }
 
   /// The face above or below a place of the chart, nearest to the middle.
@@ -156,6 +165,9 @@ class Surroundings {
       }
       samples_.push_back(sample);
     }
+    std::sort(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) {
+      return a.at.x() < b.at.x();
+    });
   }
 
   [[nodiscard]] Eigen::Vector2d flat(const Eigen::Vector3d& p) const {
@@ -186,7 +198,7 @@ class Surroundings {
   Eigen::Vector3d right_;
   Eigen::Vector3d up_;
   std::vector<int> faces_;
-  std::vector<Sample> samples_;
+  std::vector<Sample> samples_;  ///< by at.x()
 };
 
 /// Moves to the crest across the edge, where there is one within one step; else nothing.
@@ -206,18 +218,17 @@ std::optional<Eigen::Vector2d> crestNear(const Surroundings& around,
 
 }  // namespace
 
-std::optional<SurfacePoint> snapToEdge(const TexturedMesh& foot,
-                                       const SurfacePatch& patch,
-                                       const SurfacePoint& place,
-                                       const EdgeSnapOptions& options) {
+std::vector<EdgePlace> edgesNear(const TexturedMesh& foot,
+                                 const SurfacePatch& patch,
+                                 const SurfacePoint& place,
+                                 const EdgeSnapOptions& options) {
   const SurfaceNode node = nodeOf(patch, place);
   if (node.face < 0) {
-    return std::nullopt;
+    return {};
   }
   const Surroundings around(foot, patch, node, options);
   const int steps = static_cast<int>(options.radius_mm / kGrid_mm);
-  std::optional<Eigen::Vector2d> best;
-  double best_score = 0.0;
+  std::array<std::vector<EdgePlace>, 2> edges;
   for (int j = -steps; j <= steps; ++j) {
     for (int i = -steps; i <= steps; ++i) {
       const Eigen::Vector2d x(i * kGrid_mm, j * kGrid_mm);
@@ -226,21 +237,37 @@ std::optional<SurfacePoint> snapToEdge(const TexturedMesh& foot,
       }
       const auto changes = around.at(x);
       for (std::size_t channel = 0; channel < changes.size(); ++channel) {
-        const Change& here = changes[channel];
-        const double share = x.squaredNorm() / (options.radius_mm * options.radius_mm);
-        const double score = here.strength * (1.0 - kDistancePenalty * share);
-        if (here.strength < 1.0 || score <= best_score) {
+        if (changes[channel].strength < 1.0) {
           continue;
         }
-        const auto crest = crestNear(around, x, channel, here);
-        if (crest && crest->norm() <= options.radius_mm) {
-          best = crest;
-          best_score = score;
+        const auto crest = crestNear(around, x, channel, changes[channel]);
+        const auto point =
+            crest && crest->norm() <= options.radius_mm ? around.lift(*crest) : std::nullopt;
+        if (point) {
+          edges[channel].push_back(
+              {.point = *point, .strength = changes[channel].strength, .moved_mm = crest->norm()});
         }
       }
     }
   }
-  return best ? around.lift(*best) : std::nullopt;
+  return edges[0].empty() ? edges[1] : edges[0];
+}
+
+std::optional<SurfacePoint> snapToEdge(const TexturedMesh& foot,
+                                       const SurfacePatch& patch,
+                                       const SurfacePoint& place,
+                                       const EdgeSnapOptions& options) {
+  std::optional<SurfacePoint> best;
+  double best_score = 0.0;
+  for (const EdgePlace& edge : edgesNear(foot, patch, place, options)) {
+    const double share = edge.moved_mm / options.radius_mm;
+    const double score = edge.strength * (1.0 - kDistancePenalty * share * share);
+    if (score > best_score) {
+      best = edge.point;
+      best_score = score;
+    }
+  }
+  return best;
 }
 
 }  // namespace tarsus

@@ -21,38 +21,6 @@ constexpr double kNormalReach_mm = 1.0;
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Centripetal Catmull-Rom curve between the middle two of four points (Barry and Goldman's
-/// pyramid).
-Points splinePoints(std::array<Eigen::Vector3d, 4> p) {
-  const double length_mm = (p[2] - p[1]).norm();
-  if ((p[1] - p[0]).norm() < 1e-6) {
-    p[0] = 2.0 * p[1] - p[2];
-  }
-  if ((p[3] - p[2]).norm() < 1e-6) {
-    p[3] = 2.0 * p[2] - p[1];
-  }
-  std::array<double, 4> t{};
-  for (int i = 0; i < 3; ++i) {
-    t[i + 1] = t[i] + std::sqrt((p[i + 1] - p[i]).norm());
-  }
-  const int count = std::clamp(static_cast<int>(std::ceil(length_mm / 0.2)), 8, 100);
-  Points points;
-  for (int i = 0; i <= count; ++i) {
-    const double u = t[1] + (t[2] - t[1]) * i / count;
-    std::array<Eigen::Vector3d, 4> q = p;
-    for (int level = 1; level <= 3; ++level) {
-      for (int k = 0; k + level <= 3; ++k) {
-        const int first = level == 3 ? 1 : k;
-        const int last = level == 3 ? 2 : k + level;
-        const double w = (u - t[first]) / (t[last] - t[first]);
-        q[k] = (1.0 - w) * q[k] + w * q[k + 1];
-      }
-    }
-    points.push_back(q[0]);
-  }
-  return points;
-}
-
 double distanceTo(const Points& points, const Eigen::Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& q : points) {
@@ -158,6 +126,36 @@ SurfacePoint putOn(const SurfacePatch& patch,
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> splinePoints(std::array<Eigen::Vector3d, 4> p) {
+  const double length_mm = (p[2] - p[1]).norm();
+  if ((p[1] - p[0]).norm() < 1e-6) {
+    p[0] = 2.0 * p[1] - p[2];
+  }
+  if ((p[3] - p[2]).norm() < 1e-6) {
+    p[3] = 2.0 * p[2] - p[1];
+  }
+  std::array<double, 4> t{};
+  for (int i = 0; i < 3; ++i) {
+    t[i + 1] = t[i] + std::sqrt((p[i + 1] - p[i]).norm());
+  }
+  const int count = std::clamp(static_cast<int>(std::ceil(length_mm / 0.2)), 8, 100);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= count; ++i) {
+    const double u = t[1] + (t[2] - t[1]) * i / count;
+    std::array<Eigen::Vector3d, 4> q = p;
+    for (int level = 1; level <= 3; ++level) {
+      for (int k = 0; k + level <= 3; ++k) {
+        const int first = level == 3 ? 1 : k;
+        const int last = level == 3 ? 2 : k + level;
+        const double w = (u - t[first]) / (t[last] - t[first]);
+        q[k] = (1.0 - w) * q[k] + w * q[k + 1];
+      }
+    }
+    points.push_back(q[0]);
+  }
+  return points;
+}
 
 OutlinePiece traceSmoothPiece(GrowingPatch& local, const std::array<SurfacePoint, 4>& clicks) {
   std::array<Eigen::Vector3d, 4> corners;

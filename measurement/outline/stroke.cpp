@@ -1,7 +1,9 @@
 #include "measurement/outline/stroke.h"
 
+#include "measurement/outline/edge_snap.h"
 #include "measurement/outline/segment.h"
 #include "measurement/outline/simplify.h"
+#include "measurement/outline/smooth_line.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,8 @@ using Points = std::vector<Eigen::Vector3d>;
 
 /// Places nearer to each other than this say nothing new.
 constexpr double kSpacing_mm = 0.3;
+/// ... and where each place is to look for edges around it.
+constexpr double kMagneticSpacing_mm = 0.8;
 /// Where a stroke overlaps itself, its ends are looked for in so much of it at either end.
 constexpr double kTailShare = 0.3;
 /// Cutting 1 mm off costs as much as joining ends this much farther apart.
@@ -26,21 +30,33 @@ struct BoundStroke {
   Points positions;
 };
 
+/// Binds the places, a spacing apart but for the last.
 tl::expected<BoundStroke, OutlineProblem> bind(const OutlineEditor& editor,
                                                std::span<const Eigen::Vector3d> stroke_mm,
                                                const ClickOptions& options) {
+  const double spacing_mm = options.magnetic ? kMagneticSpacing_mm : kSpacing_mm;
+  ClickOptions plain = options;
+  plain.magnetic = false;  // a stroke moves as a whole
   BoundStroke stroke;
   for (const Eigen::Vector3d& place : stroke_mm) {
-    if (!stroke.points.empty() && (place - stroke.positions.back()).norm() < kSpacing_mm &&
+    if (!stroke.points.empty() && (place - stroke.positions.back()).norm() < spacing_mm &&
         &place != &stroke_mm.back()) {
       continue;
     }
-    const auto point = bindClick(editor, place, options);
+    const auto point = bindClick(editor, place, plain);
     if (!point) {
       return tl::unexpected(point.error());
     }
     stroke.points.push_back(*point);
     stroke.positions.push_back(positionOf(editor.foot().mesh, *point));
+  }
+  if (options.magnetic) {
+    GrowingPatch local = editor.local();
+    local.cover(stroke.positions);
+    stroke.points = snapStrokeToEdges(editor.foot(), local.patch(), stroke.points);
+    for (std::size_t i = 0; i < stroke.points.size(); ++i) {
+      stroke.positions[i] = positionOf(editor.foot().mesh, stroke.points[i]);
+    }
   }
   return stroke;
 }
@@ -113,41 +129,43 @@ int strayPoint(const BoundStroke& stroke,
   return worst;
 }
 
+/// A spline bulges where straights and bends meet: more clicks there, until it keeps to the stroke.
+std::vector<int> clicksOfSpline(const BoundStroke& stroke,
+                                std::vector<int> kept,
+                                double tolerance_mm) {
+  const int count = static_cast<int>(stroke.points.size());
+  while (true) {
+    std::vector<int> more = kept;
+    const std::size_t n = kept.size();
+    const auto at = [&](std::size_t i) { return stroke.positions[kept[i % n]]; };
+    for (std::size_t i = 0; i < n; ++i) {
+      const int end = i + 1 < n ? kept[i + 1] : kept[0] + count;
+      const Points spline = splinePoints({at(i + n - 1), at(i), at(i + 1), at(i + 2)});
+      const int stray = strayPoint(stroke, {kept[i], end}, spline, tolerance_mm);
+      if (stray >= 0) {
+        more.push_back(stray);
+      }
+    }
+    if (more.size() == n) {
+      return kept;
+    }
+    std::sort(more.begin(), more.end());
+    kept = std::move(more);
+  }
+}
+
 OutlineEditor newOutline(const OutlineEditor& editor,
                          const BoundStroke& whole,
                          const StrokeOptions& options) {
   const auto [first, last] = onceAround(whole.positions);
   const BoundStroke stroke{{whole.points.begin() + first, whole.points.begin() + last + 1},
                            {whole.positions.begin() + first, whole.positions.begin() + last + 1}};
-  const bool smooth = editor.clicks().smooth;
-  const int count = static_cast<int>(stroke.points.size());
   std::vector<int> kept = essentialPoints(stroke.positions, options.tolerance_mm);
-  while (true) {
-    const OutlineEditor next =
-        editor.with({.points = chosen(stroke.points, kept), .closed = true, .smooth = smooth});
-    if (!smooth || kept.size() < 3) {
-      return next;
-    }
-    // A spline bulges where straights and bends meet: more clicks there, until it does not.
-    const auto line = next.line();
-    std::vector<int> more = kept;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const int end = i + 1 < kept.size() ? kept[i + 1] : kept[0] + count;
-      Points places;
-      for (const SurfacePoint& point : line[i]) {
-        places.push_back(positionOf(editor.foot().mesh, point));
-      }
-      const int stray = strayPoint(stroke, {kept[i], end}, places, 0.5 * options.tolerance_mm);
-      if (stray >= 0) {
-        more.push_back(stray);
-      }
-    }
-    if (more.size() == kept.size()) {
-      return next;
-    }
-    std::sort(more.begin(), more.end());
-    kept = std::move(more);
+  if (editor.clicks().smooth && kept.size() >= 3) {
+    kept = clicksOfSpline(stroke, std::move(kept), 0.5 * options.tolerance_mm);
   }
+  return editor.with(
+      {.points = chosen(stroke.points, kept), .closed = true, .smooth = editor.clicks().smooth});
 }
 
 /// Which of the two ways around from `start` to `end` runs beside the stroke: true, the forward
@@ -176,55 +194,54 @@ bool besideForward(const OutlineEditor& editor,
   return sum[0] / weight[0] <= sum[1] / weight[1];
 }
 
-/// Puts the stroke in the place of the clicks beside it.
-OutlineEditor withPieceReplaced(const OutlineEditor& editor,
-                                const BoundStroke& stroke,
-                                const StrokeOptions& options) {
-  const auto start = nearestOnLine(editor, stroke.positions.front());
-  const auto end = nearestOnLine(editor, stroke.positions.back());
-  const bool forward = besideForward(editor, stroke.positions, start->along_mm, end->along_mm);
-  auto fresh = chosen(stroke.points, essentialPointsOfOpen(stroke.positions, options.tolerance_mm));
-  fresh.front() = bindClick(editor, start->position_mm, {}).value_or(fresh.front());
-  fresh.back() = bindClick(editor, end->position_mm, {}).value_or(fresh.back());
-  double from_mm = start->along_mm;
-  double to_mm = end->along_mm;
-  if (!forward) {
-    std::reverse(fresh.begin(), fresh.end());
-    std::swap(from_mm, to_mm);
-  }
-  // What stays, in order from the end of the replaced piece on.
-  struct Kept {
-    double after_mm;
-    SurfacePoint point;
-  };
-  std::vector<Kept> kept;
-  double click_mm = 0.0;
+/// Clicks of the outline from `end_mm` on around to `start_mm` (along its line), but for those
+/// within `margin_mm` of either.
+std::vector<SurfacePoint> clicksBetween(const OutlineEditor& editor,
+                                        double end_mm,
+                                        double start_mm,
+                                        double margin_mm) {
+  std::vector<double> click_mm;
   double whole_mm = 0.0;
-  std::vector<double> click_at;
   for (const auto& piece : editor.line()) {
-    click_at.push_back(whole_mm);
+    click_mm.push_back(whole_mm);
     for (std::size_t i = 1; i < piece.size(); ++i) {
       whole_mm +=
           (positionOf(editor.foot().mesh, piece[i]) - positionOf(editor.foot().mesh, piece[i - 1]))
               .norm();
     }
   }
-  const double replaced_mm = from_mm <= to_mm ? to_mm - from_mm : whole_mm - from_mm + to_mm;
-  for (std::size_t i = 0; i < click_at.size(); ++i) {
-    click_mm = click_at[i] - to_mm;
-    click_mm += click_mm < 0.0 ? whole_mm : 0.0;
-    const bool stays =
-        click_mm > options.tolerance_mm && click_mm < whole_mm - replaced_mm - options.tolerance_mm;
-    if (stays) {
-      kept.push_back({click_mm, editor.clicks().points[i]});
+  const auto around = [&](double mm) { return mm < 0.0 ? mm + whole_mm : mm; };
+  const double kept_mm = around(start_mm - end_mm);
+  std::vector<std::pair<double, std::size_t>> kept;
+  for (std::size_t i = 0; i < click_mm.size(); ++i) {
+    const double after_mm = around(click_mm[i] - end_mm);
+    if (after_mm > margin_mm && after_mm < kept_mm - margin_mm) {
+      kept.emplace_back(after_mm, i);
     }
   }
-  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) {
-    return a.after_mm < b.after_mm;
-  });
-  for (const Kept& click : kept) {
-    fresh.push_back(click.point);
+  std::sort(kept.begin(), kept.end());
+  std::vector<SurfacePoint> clicks;
+  for (const auto& [after_mm, i] : kept) {
+    clicks.push_back(editor.clicks().points[i]);
   }
+  return clicks;
+}
+
+/// Puts the stroke in the place of the clicks beside it.
+OutlineEditor withPieceReplaced(const OutlineEditor& editor,
+                                const BoundStroke& stroke,
+                                const StrokeOptions& options) {
+  auto start = *nearestOnLine(editor, stroke.positions.front());
+  auto end = *nearestOnLine(editor, stroke.positions.back());
+  auto fresh = chosen(stroke.points, essentialPointsOfOpen(stroke.positions, options.tolerance_mm));
+  fresh.front() = bindClick(editor, start.position_mm, {}).value_or(fresh.front());
+  fresh.back() = bindClick(editor, end.position_mm, {}).value_or(fresh.back());
+  if (!besideForward(editor, stroke.positions, start.along_mm, end.along_mm)) {
+    std::reverse(fresh.begin(), fresh.end());
+    std::swap(start, end);
+  }
+  const auto rest = clicksBetween(editor, end.along_mm, start.along_mm, options.tolerance_mm);
+  fresh.insert(fresh.end(), rest.begin(), rest.end());
   return editor.with(
       {.points = std::move(fresh), .closed = true, .smooth = editor.clicks().smooth});
 }

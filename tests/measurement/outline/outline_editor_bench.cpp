@@ -1,5 +1,7 @@
 #include "measurement/outline/cut.h"
 #include "measurement/outline/outline_edits.h"
+#include "measurement/outline/painted_border.h"
+#include "measurement/outline/stroke.h"
 #include "tests/measurement/outline/wound_surface.h"
 
 #include <algorithm>
@@ -123,6 +125,50 @@ void benchRadius(const Leg& leg, double radius_mm, int count, bool smooth) {
   printParts(leg, editor);
 }
 
+/// Tools beside single clicks, around the crater's rim of 9 mm.
+void benchTools(const Leg& leg) {
+  const OutlineEditor empty(leg.foot, leg.index);
+  test::Dice dice(8);
+  std::vector<Eigen::Vector3d> stroke;
+  for (int i = 0; i < 300; ++i) {
+    const double a = 2.0 * pi * i / 300.0;
+    const double r = 9.0 + 0.5 * std::sin(5.0 * a) + 0.1 * dice.uniform(-1.0, 1.0);
+    stroke.push_back(leg.at(r * std::cos(a), r * std::sin(a)));
+  }
+  const OutlineEditor ready = closeOutline(appendClick(empty, stroke.front()));
+  Spread straight;
+  Spread smooth;
+  Spread magnetic;
+  Spread click;
+  Spread dab;
+  Spread border;
+  PaintedRegion region(leg.foot);
+  region.paint(leg.index->nearest(leg.at(0.0, 0.0), 1.0)->point, 4.0);
+  for (int i = 0; i < 15; ++i) {
+    straight.add(milliseconds([&] { static_cast<void>(drawStroke(ready, stroke)); }));
+    smooth.add(
+        milliseconds([&] { static_cast<void>(drawStroke(makeSmooth(ready, true), stroke)); }));
+    magnetic.add(milliseconds([&] {
+      static_cast<void>(drawStroke(makeSmooth(ready, true), stroke, {.click = {.magnetic = true}}));
+    }));
+    click.add(milliseconds([&] {
+      static_cast<void>(bindClick(ready, stroke[static_cast<std::size_t>(i)], {.magnetic = true}));
+    }));
+    const auto at = leg.index->nearest(leg.at(0.5 * i, 0.0), 1.0)->point;
+    dab.add(milliseconds([&] { region.paint(at, 4.0); }));
+    border.add(milliseconds([&] { static_cast<void>(borderOf(region)); }));
+  }
+  std::printf(
+      "a stroke of 57 mm: straight %.0f ms, smooth %.0f, smooth and magnetic %.0f; "
+      "a magnetic click %.1f; a dab of the brush %.1f, its border %.1f\n",
+      straight.median(),
+      smooth.median(),
+      magnetic.median(),
+      click.median(),
+      dab.median(),
+      border.median());
+}
+
 }  // namespace
 }  // namespace tarsus
 
@@ -137,4 +183,5 @@ int main() {
       tarsus::benchRadius(leg, radius_mm, count, smooth);
     }
   }
+  tarsus::benchTools(leg);
 }

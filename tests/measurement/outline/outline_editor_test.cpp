@@ -1,5 +1,6 @@
 #include "measurement/outline/outline_editor.h"
 
+#include "measurement/outline/cut.h"
 #include "measurement/outline/outline_edits.h"
 #include "tests/measurement/outline/wound_surface.h"
 
@@ -262,6 +263,62 @@ TEST(OutlineEditor, RefusesAnotherModelsOutlineBeside) {
   WoundOutline other = scene.drawn(scene.circle(5.0, 12)).outline()->outline;
   other.mesh_sha256 = "of another model";
   EXPECT_EQ(scene.empty().besides(std::span(&other, 1)).error().code, ErrorCode::OutlineInvalid);
+}
+
+/// One edit by chance, of those that a hand would try.
+OutlineEditor randomEdit(const Scene& scene, const OutlineEditor& editor, test::Dice& dice) {
+  const auto count = static_cast<int>(editor.clicks().points.size());
+  const int click = static_cast<int>(dice.uniform() * count);
+  const Eigen::Vector3d anywhere = scene.at(dice.uniform(-11.0, 11.0), dice.uniform(-11.0, 11.0));
+  const double what = dice.uniform();
+  if (what < 0.4 && count > 0) {
+    const Eigen::Vector3d here = positionOf(scene.foot->mesh, editor.clicks().points[click]);
+    return moveClick(editor, click, here + Eigen::Vector3d(dice.normal(), dice.normal(), 0.0));
+  }
+  if (what < 0.55 && count > 0) {  // on another click: both at one place
+    return moveClick(
+        editor, click, positionOf(scene.foot->mesh, editor.clicks().points[(click + 1) % count]));
+  }
+  if (what < 0.7) {
+    return insertClick(editor, anywhere);
+  }
+  if (what < 0.85 && count > 0) {
+    return deleteClick(editor, click);
+  }
+  return what < 0.95 ? makeSmooth(editor, !editor.clicks().smooth) : closeOutline(editor);
+}
+
+TEST(OutlineEditor, AnythingAHandDoesIsSoundOrSaid) {
+  Scene scene(test::saddleSkin(20.0),
+              {.half_size_mm = 12.0, .jitter = 0.45, .noise_mm = 0.3},
+              test::crater(4.0, 3.0, 0.6));
+  scene.punch(scene.at(7.0, 3.0).cast<float>(), 1.2F);
+  test::Dice dice(17);
+  int sound = 0;
+  int said = 0;
+  for (int run = 0; run < 25; ++run) {
+    OutlineEditor editor = scene.drawn(scene.circle(dice.uniform(2.0, 5.5), 7));
+    for (int i = 0; i < 20; ++i) {
+      OutlineEditor next = randomEdit(scene, editor, dice);
+      ASSERT_EQ(next.problem().has_value(), !next.outline() && next.clicks().closed);
+      if (next.problem()) {
+        ++said;
+        ASSERT_TRUE(next.problem()->at_mm.allFinite());
+        ASSERT_FALSE(next.problem()->error.detail.empty());
+        continue;  // undo
+      }
+      const SurfacePatch whole = extractPatch(scene.foot->mesh, Eigen::Vector3d::Zero(), 1000.0);
+      const auto curve = closeCurve(whole, nodesOf(whole, next.outline()->outline.curve));
+      ASSERT_TRUE(curve);
+      const auto cut = cutAlong(whole, *curve);
+      ASSERT_TRUE(cut);
+      ASSERT_NEAR(areaOf(*cut, CurveSide::Left), next.outline()->area_mm2, 1e-9);
+      editor = std::move(next);
+      ++sound;
+    }
+  }
+  EXPECT_GT(sound, 100);
+  EXPECT_GT(said, 10);
 }
 
 TEST(SmoothLine, RunsThroughEveryClickAndIsRound) {

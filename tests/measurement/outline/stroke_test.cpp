@@ -1,5 +1,6 @@
 #include "measurement/outline/stroke.h"
 
+#include "reconstruction/base/parallel.h"
 #include "tests/measurement/outline/wound_surface.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,37 @@ TEST(Stroke, ReplacesThePieceBesideIt) {
   ASSERT_TRUE(halved.outline()) << describe(halved.problem()->error);
   const double rest = pi - std::acos(2.0 / 9.0) + (2.0 / 9.0) * std::sqrt(1.0 - 4.0 / 81.0);
   EXPECT_NEAR(halved.outline()->area_mm2, 81.0 * rest, 0.04 * before);
+}
+
+TEST(Stroke, MagneticOnesFollowTheRimAndDoNotJump) {
+  const test::Skin skin = test::planeSkin();
+  const test::Relief relief = test::crater(7.0, 3.0, 2.0);
+  const auto foot = std::make_shared<const TexturedMesh>(
+      test::woundMesh(skin, relief, {.half_size_mm = 14.0, .edge_mm = 0.4, .noise_mm = 0.05}));
+  const auto index = std::make_shared<const MeshIndex>(foot->mesh);
+  const OutlineEditor empty = makeSmooth(OutlineEditor(foot, index), true);
+  std::vector<Eigen::Vector3d> wavy;
+  for (double a = 0.0; a < 2.0 * pi - 0.1; a += 0.02) {
+    const double r = 7.2 + 0.8 * std::sin(6.0 * a);
+    const Eigen::Vector2d at(r * std::cos(a), r * std::sin(a));
+    wavy.emplace_back(at.x(), at.y(), -relief(at.x(), at.y()));
+  }
+  const auto offRim = [&](const OutlineEditor& editor) {
+    double worst = 0.0;
+    for (const SurfacePoint& p : editor.outline()->outline.curve) {
+      worst = std::max(worst, std::abs(positionOf(foot->mesh, p).head<2>().norm() - 7.0));
+    }
+    return worst;
+  };
+  const auto plain = drawStroke(empty, wavy);
+  const auto magnetic = drawStroke(empty, wavy, {.click = {.magnetic = true}});
+  ASSERT_TRUE(plain.outline() && magnetic.outline());
+  EXPECT_GT(offRim(plain), 0.7);
+  // Half of the scale over which changes are seen, and the tolerance of thinning the clicks.
+  EXPECT_LT(offRim(magnetic), 0.5);
+  const ThreadLimit one(1);
+  const auto again = drawStroke(empty, wavy, {.click = {.magnetic = true}});
+  EXPECT_EQ(again.outline()->area_mm2, magnetic.outline()->area_mm2);
 }
 
 TEST(Stroke, RefusesWhatLeadsNowhere) {
