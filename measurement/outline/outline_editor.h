@@ -37,7 +37,8 @@ class OutlineEditor {
 
   [[nodiscard]] const OutlineClicks& clicks() const { return clicks_; }
   [[nodiscard]] const std::optional<OutlineProblem>& problem() const { return problem_; }
-  /// With hash and clicks; null while it is open or has a problem.
+  /// With hash and clicks; null while it is open or has a problem. A smooth outline is written to a
+  /// file by the positions of its curve: its clicks alone would be joined straight.
   [[nodiscard]] std::shared_ptr<const TracedOutline> outline() const { return outline_; }
   /// The line from click i to the next, in order; one fewer than clicks while it is open.
   [[nodiscard]] std::vector<std::vector<SurfacePoint>> line() const;

@@ -344,6 +344,19 @@ TEST(SmoothLine, RunsThroughEveryClickAndIsRound) {
   }
 }
 
+TEST(SmoothLine, ItsCurveWrittenAsPointsIsTheSameOutline) {
+  const Scene scene(test::cylinderSkin(20.0),
+                    {.half_size_mm = 18.0, .edge_mm = 0.6, .noise_mm = 0.2},
+                    test::crater(6.0, 2.0, 1.0));
+  const auto smooth = makeSmooth(scene.drawn(scene.circle(7.0, 9)), true).outline();
+  ASSERT_TRUE(smooth);
+  const OutlineEditor read = loadOutline(scene.empty(), positions(scene, smooth->outline.curve));
+  ASSERT_TRUE(read.outline()) << describe(read.problem()->error);
+  // Points within 0.01 mm of the line through their neighbours are passed over.
+  EXPECT_NEAR(read.outline()->area_mm2, smooth->area_mm2, 0.01 * smooth->perimeter_mm);
+  EXPECT_NEAR(read.outline()->perimeter_mm, smooth->perimeter_mm, 2e-3 * smooth->perimeter_mm);
+}
+
 TEST(SmoothLine, IsNotShakenByRoughSkin) {
   const Scene smooth_skin(test::cylinderSkin(20.0), {.half_size_mm = 20.0, .edge_mm = 0.5});
   const Scene rough(test::cylinderSkin(20.0),
