@@ -3,6 +3,7 @@
 #include "measurement/outline/curve_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tarsus {
@@ -56,9 +57,7 @@ int largestPart(const SurfacePatch& patch, const std::vector<int>& part) {
   return largest == area_mm2.end() ? -1 : largest->first;
 }
 
-std::string millimetres2(double value) {
-  return std::to_string(static_cast<int>(value + 0.5)) + " mm2";
-}
+std::string millimetres2(double value) { return std::to_string(std::lround(value)) + " mm2"; }
 
 }  // namespace
 

@@ -71,13 +71,14 @@ std::vector<double> lengths(const Points& points) {
 }
 
 /// The part of a stroke that goes around once: [first, last].
-std::pair<std::size_t, std::size_t> onceAround(const Points& points) {
+std::pair<int, int> onceAround(const Points& points) {
   const auto along = lengths(points);
   const double whole = along.back();
-  std::pair<std::size_t, std::size_t> best(0, points.size() - 1);
+  const int count = static_cast<int>(points.size());
+  std::pair<int, int> best(0, count - 1);
   double least = (points.front() - points.back()).norm();
-  for (std::size_t i = 0; i < points.size() && along[i] <= kTailShare * whole; ++i) {
-    for (std::size_t j = points.size() - 1; j > i && whole - along[j] <= kTailShare * whole; --j) {
+  for (int i = 0; i < count && along[i] <= kTailShare * whole; ++i) {
+    for (int j = count - 1; j > i && whole - along[j] <= kTailShare * whole; --j) {
       const double cost =
           (points[i] - points[j]).norm() + kTailCost * (along[i] + whole - along[j]);
       if (cost < least) {
@@ -92,6 +93,7 @@ std::pair<std::size_t, std::size_t> onceAround(const Points& points) {
 std::vector<SurfacePoint> chosen(const std::vector<SurfacePoint>& points,
                                  const std::vector<int>& indices) {
   std::vector<SurfacePoint> clicks;
+  clicks.reserve(indices.size());
   for (const int i : indices) {
     clicks.push_back(points[i]);
   }
@@ -221,6 +223,7 @@ std::vector<SurfacePoint> clicksBetween(const OutlineEditor& editor,
   }
   std::sort(kept.begin(), kept.end());
   std::vector<SurfacePoint> clicks;
+  clicks.reserve(kept.size());
   for (const auto& [after_mm, i] : kept) {
     clicks.push_back(editor.clicks().points[i]);
   }

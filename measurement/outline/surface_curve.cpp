@@ -104,7 +104,7 @@ class Untangler {
   }
 
   /// The same vertex or edge point visited twice.
-  std::optional<Meeting> findRevisit() const {
+  [[nodiscard]] std::optional<Meeting> findRevisit() const {
     std::map<std::pair<int, int>, std::vector<int>> places;
     for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
       if (!nodes_[i].insideFace()) {
@@ -124,7 +124,7 @@ class Untangler {
     return std::nullopt;
   }
 
-  std::optional<Meeting> findMeeting() const {
+  [[nodiscard]] std::optional<Meeting> findMeeting() const {
     const int count = static_cast<int>(nodes_.size());
     for (const auto& [face, segments] : segments_) {
       for (std::size_t a = 0; a < segments.size(); ++a) {
