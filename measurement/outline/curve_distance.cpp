@@ -1,5 +1,7 @@
 #include "measurement/outline/curve_distance.h"
 
+#include "measurement/outline/segment.h"
+
 #include <queue>
 
 #include <algorithm>
@@ -49,11 +51,7 @@ class NearestSegment {
 
  private:
   [[nodiscard]] double toSegment(const Eigen::Vector3d& p, int i) const {
-    const Eigen::Vector3d& a = points_[i];
-    const Eigen::Vector3d along = points_[(i + 1) % points_.size()] - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (p - a - t * along).norm();
+    return nearestOnSegment(p, points_[i], points_[(i + 1) % points_.size()]).distance;
   }
 
   /// Tries segment `start` and its neighbours along the curve for vertex v.
@@ -197,17 +195,25 @@ std::vector<double> signedDistances(const SurfacePatch& patch,
   return distances;
 }
 
+std::vector<OffsetCurve> levelCurves(const SurfacePatch& patch,
+                                     const std::vector<double>& distances_mm,
+                                     double level_mm) {
+  LevelWalker walker(patch, distances_mm, level_mm);
+  std::vector<OffsetCurve> curves;
+  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
+    if (walker.isNew(i)) {
+      curves.push_back(walker.walk(i));
+    }
+  }
+  return curves;
+}
+
 std::optional<OffsetCurve> levelCurve(const SurfacePatch& patch,
                                       const std::vector<double>& distances_mm,
                                       double level_mm) {
-  LevelWalker walker(patch, distances_mm, level_mm);
   std::optional<OffsetCurve> longest;
   double longest_mm = 0.0;
-  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
-    if (!walker.isNew(i)) {
-      continue;
-    }
-    OffsetCurve curve = walker.walk(i);
+  for (OffsetCurve& curve : levelCurves(patch, distances_mm, level_mm)) {
     const double length_mm = lengthOfChain(patch, curve.curve.nodes);
     if (length_mm > longest_mm) {
       longest_mm = length_mm;

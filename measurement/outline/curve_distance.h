@@ -22,6 +22,10 @@ struct OffsetCurve {
   SurfaceCurve curve;
   bool closed = false;  ///< false: it runs into a hole or the model's edge
 };
+/// Every level curve.
+[[nodiscard]] std::vector<OffsetCurve> levelCurves(const SurfacePatch& patch,
+                                                   const std::vector<double>& distances_mm,
+                                                   double level_mm);
 /// The longest level curve; nothing where there is none.
 [[nodiscard]] std::optional<OffsetCurve> levelCurve(const SurfacePatch& patch,
                                                     const std::vector<double>& distances_mm,

@@ -154,19 +154,25 @@ class Cutter {
   void addPart(int parent, const std::array<int, 3>& part) {
     const int index = static_cast<int>(cut_.faces.size());
     cut_.faces.push_back(part);
-    parents_.push_back(parent);
+    cut_.parents.push_back(parent);
     for (int k = 0; k < 3; ++k) {
       part_of_edge_[directed(part[k], part[(k + 1) % 3])] = index;
     }
   }
 
   [[nodiscard]] bool splitFaces() {
-    whole_.assign(patch_.faces.size(), -1);
+    constexpr int kSplit = -1;
+    whole_.assign(patch_.faces.size(), 0);
+    for (const auto& [face, touched] : touched_) {
+      whole_[face] = kSplit;
+    }
+    cut_.faces.reserve(patch_.faces.size() + 4 * touched_.size());
+    cut_.parents.reserve(patch_.faces.size() + 4 * touched_.size());
     for (int i = 0; i < static_cast<int>(patch_.faces.size()); ++i) {
-      if (!touched_.contains(i)) {
+      if (whole_[i] != kSplit) {
         whole_[i] = static_cast<int>(cut_.faces.size());
         cut_.faces.push_back(patch_.faces[i]);
-        parents_.push_back(i);
+        cut_.parents.push_back(i);
       }
     }
     first_part_ = static_cast<int>(cut_.faces.size());
@@ -182,17 +188,26 @@ class Cutter {
   [[nodiscard]] int across(int face, int k) const {
     const int a = cut_.faces[face][k];
     const int b = cut_.faces[face][(k + 1) % 3];
+    const int parent = cut_.parents[face];
+    int neighbor = -1;
+    if (face < first_part_) {
+      neighbor = patch_.neighbors[parent][k];
+    } else {
+      const auto part = part_of_edge_.find(directed(b, a));
+      if (part != part_of_edge_.end()) {
+        return part->second;
+      }
+      const int corner = patch_.cornerOf(parent, a);
+      if (corner < 0 || patch_.faces[parent][(corner + 1) % 3] != b) {
+        return -1;  // half of a border edge
+      }
+      neighbor = patch_.neighbors[parent][corner];
+    }
+    if (neighbor < 0 || whole_[neighbor] >= 0) {
+      return neighbor < 0 ? -1 : whole_[neighbor];
+    }
     const auto part = part_of_edge_.find(directed(b, a));
-    if (part != part_of_edge_.end()) {
-      return part->second;
-    }
-    const int parent = parents_[face];
-    const int corner = patch_.cornerOf(parent, a);
-    if (corner < 0 || patch_.faces[parent][(corner + 1) % 3] != b) {
-      return -1;  // half of a border edge
-    }
-    const int neighbor = patch_.neighbors[parent][corner];
-    return neighbor < 0 ? -1 : whole_[neighbor];
+    return part != part_of_edge_.end() ? part->second : -1;
   }
 
   /// The faces at the curve itself: those with an edge along it lie left, against it right.
@@ -213,6 +228,10 @@ class Cutter {
     return found == curve_.nodes.size();
   }
 
+  [[nodiscard]] bool onCurve(int a, int b) const {
+    return barrier_.contains(directed(a, b)) || barrier_.contains(directed(b, a));
+  }
+
   [[nodiscard]] bool mark(int face, CurveSide side, std::vector<int>& open) {
     if (cut_.sides[face] == CurveSide::Apart) {
       cut_.sides[face] = side;
@@ -231,9 +250,7 @@ class Cutter {
       const int face = open.back();
       open.pop_back();
       for (int k = 0; k < 3; ++k) {
-        const int a = cut_.faces[face][k];
-        const int b = cut_.faces[face][(k + 1) % 3];
-        if (barrier_.contains(directed(a, b)) || barrier_.contains(directed(b, a))) {
+        if (face >= first_part_ && onCurve(cut_.faces[face][k], cut_.faces[face][(k + 1) % 3])) {
           continue;
         }
         const int next = across(face, k);
@@ -248,7 +265,7 @@ class Cutter {
 
   void findReach() {
     for (std::size_t i = 0; i < cut_.faces.size(); ++i) {
-      for (const int v : patch_.faces[parents_[i]]) {
+      for (const int v : patch_.faces[cut_.parents[i]]) {
         if (patch_.border[v] == PatchBorder::Rim) {
           cut_.left_reaches_rim |= cut_.sides[i] == CurveSide::Left;
           cut_.right_reaches_rim |= cut_.sides[i] == CurveSide::Right;
@@ -264,8 +281,7 @@ class Cutter {
   std::map<int, Touched> touched_;
   std::unordered_set<std::uint64_t> barrier_;
   std::unordered_map<std::uint64_t, int> part_of_edge_;
-  std::vector<int> whole_;    ///< #F of the patch: its face in the cut, -1 where split
-  std::vector<int> parents_;  ///< #F of the cut
+  std::vector<int> whole_;  ///< #F of the patch: its face in the cut, -1 where split
   int first_part_ = 0;
 };
 
@@ -303,6 +319,7 @@ CutMesh onlySide(const CutMesh& cut, CurveSide side) {
     if (cut.sides[i] == side) {
       const auto& f = cut.faces[i];
       part.faces.push_back({renumber(f[0]), renumber(f[1]), renumber(f[2])});
+      part.parents.push_back(cut.parents[i]);
       part.sides.push_back(side);
     }
   }

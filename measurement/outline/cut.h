@@ -25,6 +25,7 @@ struct CutMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<VertexOrigin> origins;
   std::vector<std::array<int, 3>> faces;
+  std::vector<int> parents;       ///< #F face of the patch that each is, or is a part of
   std::vector<CurveSide> sides;   ///< #F; Apart: not connected with the curve
   std::vector<int> curve;         ///< vertices of the curve, in its order
   bool left_reaches_rim = false;  ///< the left side goes on outside the patch

@@ -13,4 +13,8 @@ namespace tarsus {
 [[nodiscard]] std::vector<int> essentialPoints(std::span<const Eigen::Vector3d> closed_mm,
                                                double tolerance_mm);
 
+/// The same for an open polyline; both ends are kept.
+[[nodiscard]] std::vector<int> essentialPointsOfOpen(std::span<const Eigen::Vector3d> open_mm,
+                                                     double tolerance_mm);
+
 }  // namespace tarsus

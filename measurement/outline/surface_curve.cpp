@@ -1,5 +1,7 @@
 #include "measurement/outline/surface_curve.h"
 
+#include "measurement/outline/face_segment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,9 +14,6 @@ namespace {
 constexpr double kArtefactLoop_mm = 1.0;
 /// ... and never more than this share of the whole, so that a small figure of eight is refused.
 constexpr double kArtefactShare = 0.1;
-/// Areas in barycentric units below this are zero.
-constexpr double kFlat = 1e-13;
-
 using Nodes = std::vector<SurfaceNode>;
 
 /// Segments i and j (i < j) of the chain meet at `at`.
@@ -24,68 +23,22 @@ struct Meeting {
   SurfaceNode at;
 };
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// A segment of the chain in the flat coordinates of one face.
-struct FlatSegment {
-  int index = 0;
-  Eigen::Vector2d a;
-  Eigen::Vector2d b;
-};
-
-/// Where two segments of one face meet, in its flat coordinates.
-std::optional<Eigen::Vector2d> meet(const FlatSegment& s, const FlatSegment& r) {
-  const Eigen::Vector2d along_s = s.b - s.a;
-  const Eigen::Vector2d along_r = r.b - r.a;
-  const double denominator = cross(along_s, along_r);
-  if (std::abs(denominator) > kFlat) {
-    const double t = cross(r.a - s.a, along_r) / denominator;
-    const double u = cross(r.a - s.a, along_s) / denominator;
-    if (t < 0.0 || t > 1.0 || u < 0.0 || u > 1.0) {
-      return std::nullopt;
-    }
-    return s.a + t * along_s;
-  }
-  if (std::abs(cross(along_s, r.a - s.a)) > kFlat) {
-    return std::nullopt;  // parallel, apart
-  }
-  const double length2 = along_s.squaredNorm();
-  for (const Eigen::Vector2d& end : {r.b, r.a}) {
-    const double t = along_s.dot(end - s.a) / length2;
-    if (t >= 0.0 && t <= 1.0) {
-      return end;
-    }
-  }
-  const double t = along_r.dot(s.a - r.a) / along_r.squaredNorm();
-  return t >= 0.0 && t <= 1.0 ? std::optional(s.a) : std::nullopt;
-}
-
-/// Neighbours share an end; they meet anew only where one runs back over the other.
-std::optional<Eigen::Vector2d> foldBack(const FlatSegment& s, const FlatSegment& next) {
-  const Eigen::Vector2d back = s.a - s.b;
-  const Eigen::Vector2d on = next.b - next.a;
-  if (std::abs(cross(back, on)) > kFlat || back.dot(on) <= 0.0) {
-    return std::nullopt;
-  }
-  return on.squaredNorm() < back.squaredNorm() ? next.b : s.a;
-}
-
 class Untangler {
  public:
-  Untangler(const SurfacePatch& patch, Nodes nodes) : patch_(patch), nodes_(std::move(nodes)) {}
+  Untangler(const SurfacePatch& patch, Nodes nodes, CurveEnds ends)
+      : patch_(patch), nodes_(std::move(nodes)), joined_(ends == CurveEnds::Joined) {}
 
-  Expected<SurfaceCurve> run() {
+  tl::expected<SurfaceCurve, CurveFault> run() {
     // Each round removes at least one node or ends.
     while (true) {
       dropRepeats();
-      if (nodes_.size() < 3) {
-        return fail(ErrorCode::OutlineInvalid, "fewer than 3 different places on the surface");
+      if (joined_ && nodes_.size() < 3) {
+        return fault(ErrorCode::OutlineInvalid, "fewer than 3 different places on the surface", 0);
       }
       if (const auto gap = layFlat()) {
-        return fail(ErrorCode::OutlineInvalid,
-                    "points " + std::to_string(*gap) + " and the next do not share a triangle");
+        return fault(ErrorCode::OutlineInvalid,
+                     "points " + std::to_string(*gap) + " and the next do not share a triangle",
+                     *gap);
       }
       auto meeting = findRevisit();
       if (!meeting) {
@@ -96,9 +49,11 @@ class Untangler {
       }
       if (!cutLoop(*meeting)) {
         const Eigen::Vector3d p = positionOf(patch_, meeting->at);
-        return fail(ErrorCode::OutlineSelfIntersects,
-                    "near x " + std::to_string(p.x()) + ", y " + std::to_string(p.y()) + ", z " +
-                        std::to_string(p.z()) + " mm");
+        return tl::unexpected(CurveFault{
+            .error = {.code = ErrorCode::OutlineSelfIntersects,
+                      .detail = "near x " + std::to_string(p.x()) + ", y " + std::to_string(p.y()) +
+                                ", z " + std::to_string(p.z()) + " mm"},
+            .at_mm = p});
       }
     }
   }
@@ -108,6 +63,16 @@ class Untangler {
     return nodes_[i % static_cast<int>(nodes_.size())];
   }
 
+  [[nodiscard]] tl::unexpected<CurveFault> fault(ErrorCode code, std::string detail, int at) const {
+    const bool known = !nodes_.empty() && node(at).face >= 0;
+    return tl::unexpected(
+        CurveFault{.error = {.code = code, .detail = std::move(detail)},
+                   .at_mm = known ? positionOf(patch_, node(at)) : Eigen::Vector3d::Zero().eval()});
+  }
+  [[nodiscard]] int segmentCount() const {
+    return static_cast<int>(nodes_.size()) - (joined_ ? 0 : 1);
+  }
+
   void dropRepeats() {
     Nodes kept;
     for (const SurfaceNode& n : nodes_) {
@@ -115,7 +80,7 @@ class Untangler {
         kept.push_back(n);
       }
     }
-    while (kept.size() > 1 && samePlace(kept.back(), kept.front())) {
+    while (joined_ && kept.size() > 1 && samePlace(kept.back(), kept.front())) {
       kept.pop_back();
     }
     nodes_ = std::move(kept);
@@ -124,7 +89,7 @@ class Untangler {
   /// Sorts the segments into their faces; the index of a segment that fits into none, if any.
   std::optional<int> layFlat() {
     segments_.clear();
-    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+    for (int i = 0; i < segmentCount(); ++i) {
       const std::vector<int> faces = commonFaces(patch_, node(i), node(i + 1));
       if (faces.empty()) {
         return i;
@@ -139,7 +104,7 @@ class Untangler {
   }
 
   /// The same vertex or edge point visited twice.
-  std::optional<Meeting> findRevisit() const {
+  [[nodiscard]] std::optional<Meeting> findRevisit() const {
     std::map<std::pair<int, int>, std::vector<int>> places;
     for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
       if (!nodes_[i].insideFace()) {
@@ -159,16 +124,18 @@ class Untangler {
     return std::nullopt;
   }
 
-  std::optional<Meeting> findMeeting() const {
+  [[nodiscard]] std::optional<Meeting> findMeeting() const {
     const int count = static_cast<int>(nodes_.size());
     for (const auto& [face, segments] : segments_) {
       for (std::size_t a = 0; a < segments.size(); ++a) {
         for (std::size_t b = a + 1; b < segments.size(); ++b) {
-          const FlatSegment& s = segments[a];
-          const FlatSegment& r = segments[b];
+          const FaceSegment& s = segments[a];
+          const FaceSegment& r = segments[b];
           const bool follows = r.index == s.index + 1;
-          const bool closes = s.index == 0 && r.index == count - 1;
-          const auto at = follows ? foldBack(s, r) : closes ? foldBack(r, s) : meet(s, r);
+          const bool closes = joined_ && s.index == 0 && r.index == count - 1;
+          const auto at = follows  ? foldBack(s, r, kCurveClearance)
+                          : closes ? foldBack(r, s, kCurveClearance)
+                                   : meet(s, r, kCurveClearance);
           if (at) {
             const Eigen::Vector3d full(1.0 - at->sum(), at->x(), at->y());
             return Meeting{s.index, r.index, faceNode(patch_, face, full)};
@@ -189,15 +156,14 @@ class Untangler {
 
   /// Cuts the shorter of the two loops off where it is short enough to be an artefact.
   bool cutLoop(const Meeting& m) {
-    const int count = static_cast<int>(nodes_.size());
-    const double whole = arc(0, count);
+    const double whole = arc(0, segmentCount());
     const double inner = arc(m.i, m.j + 1);
     const double limit = std::min(kArtefactLoop_mm, kArtefactShare * whole);
     const double inner_loop = inner -
                               (positionOf(patch_, node(m.i)) - positionOf(patch_, m.at)).norm() -
                               (positionOf(patch_, node(m.j + 1)) - positionOf(patch_, m.at)).norm();
     const bool inner_is_artefact = inner_loop <= limit;
-    if (!inner_is_artefact && whole - inner_loop > limit) {
+    if (!inner_is_artefact && (!joined_ || whole - inner_loop > limit)) {
       return false;
     }
     Nodes kept;
@@ -216,14 +182,25 @@ class Untangler {
 
   const SurfacePatch& patch_;
   Nodes nodes_;
-  std::map<int, std::vector<FlatSegment>> segments_;
+  bool joined_;
+  std::map<int, std::vector<FaceSegment>> segments_;
   int rounds_ = 0;
 };
 
 }  // namespace
 
+tl::expected<SurfaceCurve, CurveFault> simpleCurve(const SurfacePatch& patch,
+                                                   std::vector<SurfaceNode> nodes,
+                                                   CurveEnds ends) {
+  return Untangler(patch, std::move(nodes), ends).run();
+}
+
 Expected<SurfaceCurve> closeCurve(const SurfacePatch& patch, std::vector<SurfaceNode> nodes) {
-  return Untangler(patch, std::move(nodes)).run();
+  auto curve = simpleCurve(patch, std::move(nodes), CurveEnds::Joined);
+  if (!curve) {
+    return tl::unexpected(std::move(curve.error().error));
+  }
+  return std::move(*curve);
 }
 
 std::vector<Eigen::Vector3d> positionsOf(const SurfacePatch& patch, const SurfaceCurve& curve) {

@@ -6,9 +6,6 @@
 namespace tarsus {
 namespace {
 
-/// Two nodes on one edge nearer than this (in shares of the edge) are one.
-constexpr double kSameEdgePoint = 1e-7;
-
 int indexOf(const std::vector<int>& ascending, std::uint32_t value) {
   const int wanted = static_cast<int>(value);
   const auto it = std::lower_bound(ascending.begin(), ascending.end(), wanted);
@@ -106,9 +103,9 @@ bool samePlace(const SurfaceNode& a, const SurfaceNode& b) {
     return true;
   }
   if (a.onEdge()) {
-    return std::abs(a.t - b.t) < kSameEdgePoint;
+    return std::abs(a.t - b.t) < kSnapFraction;
   }
-  return a.face == b.face && (a.barycentric - b.barycentric).norm() < kSameEdgePoint;
+  return a.face == b.face && (a.barycentric - b.barycentric).norm() < kSnapFraction;
 }
 
 std::vector<int> facesOf(const SurfacePatch& patch, const SurfaceNode& node) {

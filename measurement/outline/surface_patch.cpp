@@ -1,5 +1,7 @@
 #include "measurement/outline/surface_patch.h"
 
+#include "measurement/outline/segment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -91,45 +93,6 @@ void weld(SurfacePatch& patch) {
   patch.mesh_face.resize(kept_faces);
 }
 
-struct FaceSide {
-  int low = 0;
-  int high = 0;
-  int face = 0;
-  int corner = 0;
-};
-
-/// Two faces are neighbours where they alone share an edge and run along it in opposite senses;
-/// anything else counts as a border.
-void findNeighbors(SurfacePatch& patch) {
-  std::vector<FaceSide> sides;
-  sides.reserve(patch.faces.size() * 3);
-  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = patch.faces[i][k];
-      const int b = patch.faces[i][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), i, k});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
-  patch.neighbors.assign(patch.faces.size(), {-1, -1, -1});
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].low == sides[i].low &&
-           sides[end].high == sides[i].high) {
-      ++end;
-    }
-    const FaceSide& a = sides[i];
-    const FaceSide& b = sides[end - 1];
-    if (end - i == 2 && patch.faces[a.face][a.corner] != patch.faces[b.face][b.corner]) {
-      patch.neighbors[a.face][a.corner] = b.face;
-      patch.neighbors[b.face][b.corner] = a.face;
-    }
-    i = end;
-  }
-}
-
 void findStars(SurfacePatch& patch) {
   patch.star_begin.assign(patch.vertices.size() + 1, 0);
   for (const auto& f : patch.faces) {
@@ -147,6 +110,32 @@ void findStars(SurfacePatch& patch) {
   }
 }
 
+/// Two faces are neighbours where they alone share an edge and run along it in opposite senses;
+/// anything else counts as a border.
+int neighborAcross(const SurfacePatch& patch, int face, int corner) {
+  const int a = patch.faces[face][corner];
+  const int b = patch.faces[face][(corner + 1) % 3];
+  int other = -1;
+  for (const int candidate : patch.starOf(a)) {
+    if (candidate != face && patch.cornerOf(candidate, b) >= 0) {
+      if (other >= 0) {
+        return -1;
+      }
+      other = candidate;
+    }
+  }
+  return other >= 0 && patch.faces[other][(patch.cornerOf(other, b) + 1) % 3] == a ? other : -1;
+}
+
+void findNeighbors(SurfacePatch& patch) {
+  patch.neighbors.assign(patch.faces.size(), {-1, -1, -1});
+  for (int i = 0; i < static_cast<int>(patch.faces.size()); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      patch.neighbors[i][k] = neighborAcross(patch, i, k);
+    }
+  }
+}
+
 /// A border edge belongs to the model where an end lies inside the ball: the ball's own rim runs
 /// through faces whose outer vertices lie outside.
 void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool whole) {
@@ -160,6 +149,11 @@ void findBorders(SurfacePatch& patch, const std::vector<char>& inside_ball, bool
       const int b = patch.faces[i][(k + 1) % 3];
       const bool model =
           whole || inside_ball[patch.mesh_vertex[a]] != 0 || inside_ball[patch.mesh_vertex[b]] != 0;
+      if (!model) {
+        patch.clear_radius_mm = std::min(
+            patch.clear_radius_mm,
+            nearestOnSegment(patch.center_mm, patch.vertices[a], patch.vertices[b]).distance);
+      }
       for (const int v : {a, b}) {
         if (model) {
           patch.border[v] = PatchBorder::Model;
@@ -183,28 +177,31 @@ SurfacePatch extractPatch(const TriangleMesh& mesh,
     inside[i] = (mesh.vertices[i] - center).squaredNorm() <= radius2 ? 1 : 0;
   }
   SurfacePatch patch;
+  patch.center_mm = center_mm;
   std::vector<int> local(mesh.vertices.size(), -1);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const Eigen::Vector3i& f = mesh.faces[i];
     if (inside[f[0]] == 0 && inside[f[1]] == 0 && inside[f[2]] == 0) {
       continue;
     }
-    std::array<int, 3> face{};
-    for (int k = 0; k < 3; ++k) {
-      if (local[f[k]] < 0) {
-        local[f[k]] = static_cast<int>(patch.vertices.size());
-        patch.vertices.emplace_back(mesh.vertices[f[k]].cast<double>());
-        patch.mesh_vertex.push_back(f[k]);
-      }
-      face[k] = local[f[k]];
-    }
-    patch.faces.push_back(face);
+    patch.faces.push_back({f[0], f[1], f[2]});
     patch.mesh_face.push_back(static_cast<int>(i));
+    local[f[0]] = local[f[1]] = local[f[2]] = 0;
+  }
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (local[i] == 0) {
+      local[i] = static_cast<int>(patch.vertices.size());
+      patch.vertices.emplace_back(mesh.vertices[i].cast<double>());
+      patch.mesh_vertex.push_back(static_cast<int>(i));
+    }
+  }
+  for (auto& face : patch.faces) {
+    face = {local[face[0]], local[face[1]], local[face[2]]};
   }
   const bool whole = patch.faces.size() == mesh.faces.size();
   weld(patch);
-  findNeighbors(patch);
   findStars(patch);
+  findNeighbors(patch);
   findBorders(patch, inside, whole);
   return patch;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct SurfacePatch {
   std::vector<int> star;                         ///< faces around each vertex
   std::vector<std::array<int, 3>> dropped_face;  ///< corners of collapsed faces, patch indices
   std::vector<int> dropped_mesh_face;            ///< their index in the mesh, ascending
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  ///< of the ball it was cut out with
+  /// Distance from there to the rim, infinite where it has none: no way between two points inside
+  /// that leaves the patch is shorter than what they lack of it, added up.
+  double clear_radius_mm = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] std::span<const int> starOf(int vertex) const {
     return std::span(star).subspan(star_begin[vertex], star_begin[vertex + 1] - star_begin[vertex]);
@@ -42,7 +47,8 @@ struct SurfacePatch {
   }
 };
 
-/// All faces with a vertex within radius_mm of center_mm.
+/// All faces with a vertex within radius_mm of center_mm. Vertices and faces keep the mesh's order,
+/// so that what is computed on two patches that both hold it comes out the same to the last bit.
 [[nodiscard]] SurfacePatch extractPatch(const TriangleMesh& mesh,
                                         const Eigen::Vector3d& center_mm,
                                         double radius_mm);
@@ -74,7 +80,7 @@ inline constexpr double kSnapFraction = 1e-3;
                                    const Eigen::Vector3d& barycentric);
 
 [[nodiscard]] Eigen::Vector3d positionOf(const SurfacePatch& patch, const SurfaceNode& node);
-/// Same place to within the snapping distance.
+/// Same place to within kSnapFraction of the edge or face.
 [[nodiscard]] bool samePlace(const SurfaceNode& a, const SurfaceNode& b);
 /// Faces that hold the node: one, two, or a vertex's star.
 [[nodiscard]] std::vector<int> facesOf(const SurfacePatch& patch, const SurfaceNode& node);

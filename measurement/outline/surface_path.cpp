@@ -30,8 +30,12 @@ class StripSearch {
     }
   }
 
-  /// The chain of faces; empty where none exists.
-  std::vector<int> run() {
+  struct Found {
+    std::vector<int> strip;  ///< empty where there is none
+    double cost_mm = 0.0;
+  };
+
+  Found run() {
     while (!open_.empty()) {
       const auto [bound, state] = open_.top();
       open_.pop();
@@ -42,7 +46,7 @@ class StripSearch {
       }
       const int face = patch_.neighbors[state / 9][state / 3 % 3];
       if (goals_.contains(face)) {
-        return chainTo(state, face);
+        return {chainTo(state, face), bound};
       }
       leave(face, state / 9, here, {.cost = at.cost, .from = state});
     }
@@ -267,9 +271,11 @@ std::optional<SurfacePath> shortestPath(const SurfacePatch& patch,
   if (!shared.empty()) {
     return SurfacePath{.nodes = {from, to},
                        .length_mm = (positionOf(patch, to) - positionOf(patch, from)).norm(),
+                       .searched_mm = 0.0,
                        .along_border = false};
   }
-  const std::vector<int> strip = withoutDetours(StripSearch(patch, from, to).run());
+  const auto found = StripSearch(patch, from, to).run();
+  const std::vector<int> strip = withoutDetours(found.strip);
   if (strip.empty()) {
     return std::nullopt;
   }
@@ -284,6 +290,7 @@ std::optional<SurfacePath> shortestPath(const SurfacePatch& patch,
   }
   SurfacePath path;
   path.length_mm = tight.length_mm;
+  path.searched_mm = found.cost_mm;
   path.nodes.push_back(from);
   for (const SurfaceNode& node : crossings(patch, tight)) {
     if (!samePlace(node, path.nodes.back())) {

@@ -11,6 +11,7 @@ namespace tarsus {
 struct SurfacePath {
   std::vector<SurfaceNode> nodes;
   double length_mm = 0.0;
+  double searched_mm = 0.0;   ///< no way up to this length was left unlooked at
   bool along_border = false;  ///< bends at a border vertex: a shorter way might lead across a gap
 };
 

@@ -81,6 +81,10 @@ constexpr std::array kEntries{
     Entry{ErrorCode::OutlineSelfIntersects,
           "outline_self_intersects",
           "The outline crosses itself; move its points so that it runs once around the wound."},
+    Entry{ErrorCode::OutlinesOverlap,
+          "outlines_overlap",
+          "The outline touches or overlaps that of another wound; move it apart, or outline both "
+          "as one."},
     Entry{ErrorCode::SkinCurveInvalid,
           "skin_curve_invalid",
           "The skin curve must run around the wound outline without touching it; draw it on "

@@ -30,6 +30,7 @@ enum class ErrorCode {
   OutlineInvalid,
   OutlineOffSurface,
   OutlineSelfIntersects,
+  OutlinesOverlap,
   SkinCurveInvalid,
   ReferenceSkinFailed,
   TissueInvalid,

@@ -32,6 +32,7 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::OutlineInvalid:
     case ErrorCode::OutlineOffSurface:
     case ErrorCode::OutlineSelfIntersects:
+    case ErrorCode::OutlinesOverlap:
     case ErrorCode::SkinCurveInvalid:
     case ErrorCode::ReferenceSkinFailed:
     case ErrorCode::TissueInvalid:
