@@ -89,6 +89,10 @@ constexpr std::array kEntries{
           "reference_skin_failed",
           "The healthy skin could not be rebuilt over the wound; move the skin curve onto smooth "
           "skin with more margin."},
+    Entry{ErrorCode::NoSuggestion,
+          "no_suggestion",
+          "No outline can be suggested here, as no wound parts clearly from the skin; draw the "
+          "outline by hand."},
     Entry{ErrorCode::FontMissing,
           "font_missing",
           "The report's font was not found; install the package fonts-noto-core."},

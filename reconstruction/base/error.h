@@ -32,6 +32,7 @@ enum class ErrorCode {
   OutlineSelfIntersects,
   SkinCurveInvalid,
   ReferenceSkinFailed,
+  NoSuggestion,
   FontMissing,
 };
 

@@ -34,6 +34,7 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::OutlineSelfIntersects:
     case ErrorCode::SkinCurveInvalid:
     case ErrorCode::ReferenceSkinFailed:
+    case ErrorCode::NoSuggestion:
     case ErrorCode::FontMissing:
       return true;
   }
