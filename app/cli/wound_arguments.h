@@ -24,7 +24,8 @@ struct MeasuredModel {
   TexturedMesh foot;
   MeasuredWound wound;
   std::optional<Landmarks> landmarks;
-  bool fit_for_measurement = true;  ///< as the model's file says
+  bool fit_for_measurement = true;              ///< as the model's file says
+  std::optional<OutlineSource> outline_source;  ///< as the outline's file says
 };
 
 /// Reads model and curves and measures. @errors those of readPly, traceOutline, measureWound

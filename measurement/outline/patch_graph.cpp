@@ -82,6 +82,15 @@ std::vector<int> islandsOf(const PatchGraph& graph, std::span<const char> marked
   return island;
 }
 
+template <typename Value>
+struct Number {
+  using Type = typename Value::Scalar;
+};
+template <>
+struct Number<double> {
+  using Type = double;
+};
+
 /// Steps of the diffusion, and what flows over an edge per millimetre of crossing and length.
 struct Diffusion {
   int steps = 0;
@@ -173,19 +182,37 @@ std::vector<Value> blurred(const PatchGraph& graph,
                            std::vector<Value> values,
                            double sigma_mm,
                            std::span<const int> active) {
+  using Scalar = typename Number<Value>::Type;
   const Diffusion diffusion = diffusionOf(graph, sigma_mm, active);
+  // Implicit in the vertex itself, so that slivers do not make it unstable. What flows in from each
+  // neighbour is the same in every step.
+  std::vector<Scalar> flow;
+  std::vector<Scalar> kept;
+  for (const int v : active) {
+    double weights = graph.area_mm2[v];
+    for (int i = graph.begin[v]; i < graph.begin[v + 1]; ++i) {
+      const double w =
+          diffusion.time_mm2 * graph.crossing_mm[i] / std::max(graph.length_mm[i], 1e-9);
+      flow.push_back(static_cast<Scalar>(w));
+      weights += w;
+    }
+    const double scale = weights > 0.0 ? 1.0 / weights : 0.0;
+    for (int i = graph.begin[v]; i < graph.begin[v + 1]; ++i) {
+      auto& w = flow[flow.size() - static_cast<std::size_t>(graph.begin[v + 1] - i)];
+      w = static_cast<Scalar>(w * scale);
+    }
+    kept.push_back(weights > 0.0 ? static_cast<Scalar>(graph.area_mm2[v] * scale) : Scalar(1));
+  }
   std::vector<Value> next = values;
   for (int step = 0; step < diffusion.steps; ++step) {
-    for (const int v : active) {
-      // Implicit in the vertex itself, so that slivers do not make it unstable.
-      Value sum = graph.area_mm2[v] * values[v];
-      double weights = graph.area_mm2[v];
+    std::size_t k = 0;
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      const int v = active[a];
+      Value sum = kept[a] * values[v];
       for (int i = graph.begin[v]; i < graph.begin[v + 1]; ++i) {
-        const double w = diffusion.time_mm2 * graph.crossing_mm[i] / graph.length_mm[i];
-        sum += w * values[graph.to[i]];
-        weights += w;
+        sum += flow[k++] * values[graph.to[i]];
       }
-      next[v] = weights > 0.0 ? Value(sum / weights) : values[v];
+      next[v] = sum;
     }
     values.swap(next);
   }

@@ -45,7 +45,7 @@ extern template std::vector<Eigen::Vector3d> blurred(const PatchGraph&,
                                                      double,
                                                      std::span<const int>);
 /// Colour, depth and what else is averaged together.
-using WeightedLook = Eigen::Matrix<double, 8, 1>;
+using WeightedLook = Eigen::Matrix<float, 8, 1>;
 extern template std::vector<WeightedLook> blurred(const PatchGraph&,
                                                   std::vector<WeightedLook>,
                                                   double,

@@ -27,7 +27,7 @@ constexpr double kLeastStep_delta_e = 5.0;
 constexpr double kFullStep_delta_e = 12.0;
 /// Where there is a wall, its top is the edge; colour, which runs over it on either side, counts
 /// less by this share.
-constexpr double kReliefFirst = 0.75;
+constexpr double kReliefFirst = 0.5;
 
 /// @param sign  1: the way leads outward, -1: inward
 std::vector<BorderSides::Band> bandMeans(const PatchLook& look,
@@ -39,10 +39,12 @@ std::vector<BorderSides::Band> bandMeans(const PatchLook& look,
   std::vector<WeightedLook> sums(way_mm.size(), WeightedLook::Zero());
   for (const int v : near) {
     if (way_mm[v] >= reach.begin_mm && way_mm[v] <= reach.end_mm) {
-      const double out = sign * way_mm[v];
-      const double depth = evidence.depth_mm[v];
-      const Eigen::Vector3d lab = look.lab.empty() ? Eigen::Vector3d::Zero() : look.lab[v];
-      sums[v] << lab, depth, 1.0, out, out * out, out * depth;
+      const auto out = static_cast<float>(sign * way_mm[v]);
+      const auto depth = static_cast<float>(evidence.depth_mm[v]);
+      if (!look.lab.empty()) {
+        sums[v].head<3>() = look.lab[v].cast<float>();
+      }
+      sums[v].tail<5>() << depth, 1.0F, out, out * out, out * depth;
     }
   }
   sums = blurred(look.graph, std::move(sums), kAlong_mm, near);
@@ -51,7 +53,7 @@ std::vector<BorderSides::Band> bandMeans(const PatchLook& look,
   constexpr double kSteepest = 0.3;
   std::vector<BorderSides::Band> means;
   for (const int v : near) {
-    const WeightedLook m = sums[v] / std::max(sums[v][4], 1e-12);
+    const Eigen::Matrix<double, 8, 1> m = (sums[v] / std::max(sums[v][4], 1e-12F)).cast<double>();
     const double spread = m[6] - m[5] * m[5] + kPrior_mm2;
     means.push_back({.lab = m.head<3>(),
                      .depth_mm = m[3],

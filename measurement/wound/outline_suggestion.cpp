@@ -144,9 +144,9 @@ Expected<SuggestedOutline> suggestOutline(const TexturedMesh& foot,
     return fail(ErrorCode::OutlineOffSurface, "the click does not lie on the model");
   }
   // Rings from around a wound of 4 mm radius clicked in its middle to around one of 14 mm clicked
-  // at its edge; where something larger stands out, wider ones on a larger patch.
+  // at its edge; where something larger stands out, a wider one on a larger patch.
   static constexpr std::array kRadii_mm{28.0, 21.0, 15.0, 10.0, 6.5, 4.0};
-  static constexpr std::array kWideRadii_mm{45.0, 36.0};
+  static constexpr std::array kWideRadii_mm{42.0};
   constexpr double kWidePatch = 1.5;
   std::string refusal;
   for (const bool wide : {false, true}) {

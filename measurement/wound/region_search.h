@@ -1,8 +1,6 @@
 #pragma once
 
-#include "measurement/wound/border_sides.h"
-#include "measurement/wound/outline_suggestion.h"
-#include "measurement/wound/skin_evidence.h"
+#include "measurement/wound/region_judgement.h"
 
 #include <optional>
 #include <span>
@@ -10,14 +8,6 @@
 #include <vector>
 
 namespace tarsus {
-
-/// Part of a patch that may be the wound.
-struct FoundRegion {
-  std::vector<char> marked;  ///< #V
-  SkinEvidence evidence;
-  SuggestionConfidence confidence;
-  double area_mm2 = 0.0;
-};
 
 /// Looks for the wound around one click. How large it is, and so where healthy skin begins, is not
 /// known beforehand: rings of growing radius are tried, the widest first, since a wound holds
@@ -43,8 +33,6 @@ class RegionSearch {
   [[nodiscard]] Mask startWithin(double radius_mm, bool widest);
   [[nodiscard]] std::optional<FoundRegion> grown(Mask start) const;
   [[nodiscard]] bool settle(FoundRegion& found) const;
-  void judge(FoundRegion& found) const;
-  [[nodiscard]] std::string whyNot(const FoundRegion& found) const;
   [[nodiscard]] bool known(const Mask& start) const;
 
   const PatchLook& look_;
@@ -52,6 +40,7 @@ class RegionSearch {
   SuggestionOptions options_;
   std::vector<double> way_mm_;  ///< from the click
   std::vector<Mask> refused_;
+  int tries_ = 0;
   bool outgrown_ = false;
   std::string refusal_;
 };

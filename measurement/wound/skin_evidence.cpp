@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tarsus {
 namespace {
@@ -187,36 +188,55 @@ void measureDepth(const PatchLook& look,
 
 }  // namespace
 
-SkinEvidence gatherEvidence(const PatchLook& look,
-                            std::span<const char> ring,
-                            std::span<const char> wanted,
-                            std::span<const double> outside_mm,
-                            double radius_mm) {
-  // Of healthy skin on a real foot, how much it departs from the fit per millimetre of radius
-  // (README.md: 0.25 mm at 10 mm, most of it shape, half of it slow).
-  constexpr double kDeparture = 0.012;
+struct RingSkin::Fit {
+  const PatchLook& look;
+  std::optional<SkinColor> color;
+  std::optional<ReferenceSkin> height;
+  double radius_mm = 0.0;
+};
+
+RingSkin::RingSkin(const PatchLook& look,
+                   std::span<const char> ring,
+                   std::span<const double> outside_mm,
+                   double radius_mm)
+    : fit_(std::make_unique<Fit>(Fit{look, {}, {}, radius_mm})) {
   constexpr std::size_t kFewest = 60;
-  SkinEvidence evidence;
-  const auto count = static_cast<std::size_t>(look.graph.size());
-  evidence.color.assign(count, 0.0);
-  evidence.depth_mm.assign(count, 0.0);
   const RingFrame frame = frameOf(look, ring);
   const std::vector<int> samples = samplesOf(look, ring, frame.axes.col(2));
   if (samples.size() < kFewest) {
-    return evidence;
+    return;
   }
   if (!look.lab.empty()) {
-    const SkinColor color(look, frame, samples);
+    fit_->color.emplace(look, frame, samples);
+  }
+  fit_->height = smoothSkin(look, frame, samples, outside_mm);
+}
+
+RingSkin::RingSkin(RingSkin&&) noexcept = default;
+RingSkin& RingSkin::operator=(RingSkin&&) noexcept = default;
+RingSkin::~RingSkin() = default;
+
+SkinEvidence RingSkin::evidence(std::span<const char> wanted) const {
+  // Of healthy skin on a real foot, how much it departs from the fit per millimetre of radius
+  // (README.md: 0.25 mm at 10 mm, half of it slow).
+  constexpr double kDeparture = 0.012;
+  const PatchLook& look = fit_->look;
+  const auto count = static_cast<std::size_t>(look.graph.size());
+  SkinEvidence evidence;
+  evidence.color.assign(count, 0.0);
+  evidence.depth_mm.assign(count, 0.0);
+  if (fit_->color) {
     evidence.has_color = true;
-    evidence.delta_e_per_sigma = color.deltaEPerSigma();
+    evidence.delta_e_per_sigma = fit_->color->deltaEPerSigma();
     for (int v = 0; v < look.graph.size(); ++v) {
-      evidence.color[v] = wanted[v] != 0 ? color.differenceAt(look, v) : 0.0;
+      evidence.color[v] = wanted[v] != 0 ? fit_->color->differenceAt(look, v) : 0.0;
     }
   }
-  if (const auto skin = smoothSkin(look, frame, samples, outside_mm)) {
+  if (fit_->height) {
     evidence.has_relief = true;
-    evidence.relief_sigma_mm = std::hypot(skin->rmsResidual_mm(), kDeparture * radius_mm);
-    measureDepth(look, *skin, wanted, evidence.depth_mm);
+    evidence.relief_sigma_mm =
+        std::hypot(fit_->height->rmsResidual_mm(), kDeparture * fit_->radius_mm);
+    measureDepth(look, *fit_->height, wanted, evidence.depth_mm);
   }
   return evidence;
 }

@@ -4,7 +4,7 @@
 #include "measurement/wound/reference_skin.h"
 #include "reconstruction/base/error.h"
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,18 +29,31 @@ struct SkinEvidence {
   double relief_sigma_mm = 0.0;    ///< how far that skin may be wrong inside the ring
 };
 
-/// Fits colour and height of the skin to the ring, both robustly: a pen mark, another wound or a
+/// Colour and height of the healthy skin of a ring, fitted robustly: a pen mark, another wound or a
 /// crease in the ring counts little.
 /// Colour: quadratic in the plane of the ring, CIELAB, by Tukey weights; so that light and shade
 /// that change slowly are not taken for a wound. Height: fitReferenceSkin.
-/// @param ring      #V; healthy skin
-/// @param wanted    #V where evidence is needed, elsewhere 0
-/// @param radius_mm  of what the ring encloses
-[[nodiscard]] SkinEvidence gatherEvidence(const PatchLook& look,
-                                          std::span<const char> ring,
-                                          std::span<const char> wanted,
-                                          std::span<const double> outside_mm,
-                                          double radius_mm);
+class RingSkin {
+ public:
+  /// @param look        must outlive it
+  /// @param ring        #V
+  /// @param outside_mm  #V way from what the ring encloses
+  /// @param radius_mm   of that
+  RingSkin(const PatchLook& look,
+           std::span<const char> ring,
+           std::span<const double> outside_mm,
+           double radius_mm);
+  RingSkin(RingSkin&&) noexcept;
+  RingSkin& operator=(RingSkin&&) noexcept;
+  ~RingSkin();
+
+  /// @param wanted  #V where evidence is needed; elsewhere it is 0
+  [[nodiscard]] SkinEvidence evidence(std::span<const char> wanted) const;
+
+ private:
+  struct Fit;
+  std::unique_ptr<Fit> fit_;
+};
 
 /// The depth alone, below a skin that follows the ring more closely: right near the ring, less so
 /// far inside.
