@@ -32,6 +32,7 @@ void addSimulate(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);
 void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);
+void addSuggest(CLI::App& app, Command& command);
 void addMeasure(CLI::App& app, Command& command);
 void addTissue(CLI::App& app, Command& command);
 void addScore(CLI::App& app, Command& command);

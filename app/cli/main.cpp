@@ -81,6 +81,7 @@ int parseAndRun(int argc, char** argv) {
   addReconstruct(app, command);
   addTexture(app, command);
   addEvaluate(app, command);
+  addSuggest(app, command);
   addMeasure(app, command);
   addTissue(app, command);
   addScore(app, command);

@@ -107,15 +107,18 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
   }
   const MeshIndex index(foot->mesh);
   Warnings warnings;
+  std::optional<OutlineSource> source;  // of the file traced last
   const auto trace = [&](const std::filesystem::path& path) -> Expected<WoundOutline> {
-    auto points = readOutlinePoints(path);
-    if (!points) {
-      return tl::unexpected(points.error());
+    auto file = readOutlineFile(path);
+    if (!file) {
+      return tl::unexpected(file.error());
     }
-    warnOfSnapping(*points, index, warnings);
-    return traceOutline(*foot, index, *points);
+    source = file->source;
+    warnOfSnapping(file->points_mm, index, warnings);
+    return traceOutline(*foot, index, file->points_mm);
   };
   auto outline = trace(arguments.outline);
+  const std::optional<OutlineSource> outline_source = source;
   if (!outline) {
     return tl::unexpected(outline.error());
   }
@@ -144,6 +147,11 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
     return tl::unexpected(tissue.error());
   }
   std::ranges::copy(warnings, std::back_inserter(wound->numbers.warnings));
+  if (outline_source == OutlineSource::Suggested) {
+    wound->numbers.warnings.push_back(
+        {"outline_suggested",
+         "The outline is the program's suggestion, which nobody has edited; look at it first."});
+  }
   const bool unfit =
       std::ranges::find(foot->comments, "fit_for_measurement no") != foot->comments.end();
   if (unfit) {
@@ -154,7 +162,8 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
                        .wound = std::move(*wound),
                        .landmarks = landmarks,
                        .tissue = std::move(*tissue),
-                       .fit_for_measurement = !unfit};
+                       .fit_for_measurement = !unfit,
+                       .outline_source = outline_source};
 }
 
 nlohmann::json measurementJson(const MeasuredModel& measured) {
@@ -167,6 +176,9 @@ nlohmann::json measurementJson(const MeasuredModel& measured) {
   }
   result["version"] = TARSUS_VERSION;
   result["model_sha256"] = measured.foot.sha256;
+  if (measured.outline_source) {
+    result["outline_source"] = nameOf(*measured.outline_source);
+  }
   return result;
 }
 

@@ -27,7 +27,8 @@ struct MeasuredModel {
   MeasuredWound wound;
   std::optional<Landmarks> landmarks;
   std::optional<TissueShares> tissue;
-  bool fit_for_measurement = true;  ///< as the model's file says
+  bool fit_for_measurement = true;              ///< as the model's file says
+  std::optional<OutlineSource> outline_source;  ///< as the outline's file says
 };
 
 /// Reads model, curves and paint, and measures.

@@ -5,8 +5,10 @@
 #include "reconstruction/scene/mesh_index.h"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tarsus {
@@ -32,12 +34,24 @@ struct OutlineOptions {
                                                   std::span<const Eigen::Vector3d> points_mm,
                                                   const OutlineOptions& options = {});
 
-/// Reads an outline or skin curve file (design.md section 4); the points, scan frame [mm].
-/// @errors FileMissing, OutlineInvalid
+/// Who placed a curve's points; kept in its file, so that a proposal stays known as one.
+enum class OutlineSource { Drawn, Suggested, SuggestedEdited };
+/// As it stands in files: drawn, suggested, suggested_edited.
+[[nodiscard]] std::string_view nameOf(OutlineSource source);
+
+/// What an outline or skin curve file holds (design.md section 4).
+struct OutlineFile {
+  std::vector<Eigen::Vector3d> points_mm;  ///< scan frame
+  std::optional<OutlineSource> source;     ///< empty where the file does not say, or in other words
+};
+/// @errors FileMissing, FileUnreadable, OutlineInvalid
+[[nodiscard]] Expected<OutlineFile> readOutlineFile(const std::filesystem::path& path);
+/// The points alone.
 [[nodiscard]] Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(
     const std::filesystem::path& path);
 /// @errors FileUnwritable, DiskFull
 [[nodiscard]] Expected<void> writeOutlinePoints(const std::filesystem::path& path,
-                                                std::span<const Eigen::Vector3d> points_mm);
+                                                std::span<const Eigen::Vector3d> points_mm,
+                                                std::optional<OutlineSource> source = {});
 
 }  // namespace tarsus

@@ -42,7 +42,19 @@ Expected<std::vector<Eigen::Vector3d>> parsePoints(const json& document, const s
 
 }  // namespace
 
-Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(const std::filesystem::path& path) {
+std::string_view nameOf(OutlineSource source) {
+  switch (source) {
+    case OutlineSource::Drawn:
+      return "drawn";
+    case OutlineSource::Suggested:
+      return "suggested";
+    case OutlineSource::SuggestedEdited:
+      break;
+  }
+  return "suggested_edited";
+}
+
+Expected<OutlineFile> readOutlineFile(const std::filesystem::path& path) {
   const auto text = readTextFile(path);
   if (!text) {
     return tl::unexpected(text.error());
@@ -51,16 +63,35 @@ Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(const std::filesystem::
   if (document.is_discarded()) {
     return fail(ErrorCode::OutlineInvalid, path.string() + ": not a JSON file");
   }
-  return parsePoints(document, path.string());
+  auto points = parsePoints(document, path.string());
+  if (!points) {
+    return tl::unexpected(points.error());
+  }
+  OutlineFile file{.points_mm = std::move(*points), .source = {}};
+  for (const auto source :
+       {OutlineSource::Drawn, OutlineSource::Suggested, OutlineSource::SuggestedEdited}) {
+    if (document.value("source", json()) == json(nameOf(source))) {
+      file.source = source;
+    }
+  }
+  return file;
+}
+
+Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(const std::filesystem::path& path) {
+  return readOutlineFile(path).map([](OutlineFile&& file) { return std::move(file.points_mm); });
 }
 
 Expected<void> writeOutlinePoints(const std::filesystem::path& path,
-                                  std::span<const Eigen::Vector3d> points_mm) {
+                                  std::span<const Eigen::Vector3d> points_mm,
+                                  std::optional<OutlineSource> source) {
   json points = json::array();
   for (const Eigen::Vector3d& p : points_mm) {
     points.push_back({p.x(), p.y(), p.z()});
   }
-  const json document{{"frame", "scan"}, {"unit", "mm"}, {"closed", true}, {"points", points}};
+  json document{{"frame", "scan"}, {"unit", "mm"}, {"closed", true}, {"points", points}};
+  if (source) {
+    document["source"] = nameOf(*source);
+  }
   return writeTextAtomically(path, document.dump() + "\n");
 }
 

@@ -100,6 +100,10 @@ constexpr std::array kEntries{
     Entry{ErrorCode::ScoreInputInvalid,
           "score_input_invalid",
           "A score's input cannot be used; correct it, or leave it out if it is not known."},
+    Entry{ErrorCode::NoSuggestion,
+          "no_suggestion",
+          "No outline can be suggested here, as no wound parts clearly from the skin; draw the "
+          "outline by hand."},
     Entry{ErrorCode::FontMissing,
           "font_missing",
           "The report's font was not found; install the package fonts-noto-core."},

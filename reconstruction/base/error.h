@@ -35,6 +35,7 @@ enum class ErrorCode {
   ReferenceSkinFailed,
   TissueInvalid,
   ScoreInputInvalid,
+  NoSuggestion,
   FontMissing,
 };
 

@@ -23,6 +23,32 @@ TEST(OutlineFile, ReadsWhatItWrote) {
   EXPECT_EQ(*read, points);
 }
 
+TEST(OutlineFile, KeepsWhoPlacedThePoints) {
+  const TemporaryFolder folder;
+  const std::vector<Eigen::Vector3d> points{{1, 2, 3}, {0.1, 0.2, 0.3}, {4, 5, 6}};
+  for (const std::optional<OutlineSource> source :
+       {std::optional<OutlineSource>(),
+        std::optional(OutlineSource::Drawn),
+        std::optional(OutlineSource::Suggested),
+        std::optional(OutlineSource::SuggestedEdited)}) {
+    ASSERT_TRUE(writeOutlinePoints(folder.path() / "o.json", points, source));
+    const auto read = readOutlineFile(folder.path() / "o.json");
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->source, source);
+    EXPECT_EQ(read->points_mm, points);
+  }
+}
+
+TEST(OutlineFile, TakesAnUnknownSourceForNone) {
+  const TemporaryFolder folder;
+  for (const char* source : {R"("MeshLab")", "3", "null", "[]"}) {
+    const auto read = readOutlineFile(fileWith(
+        folder, std::string(R"({"points":[[0,0,0],[1,0,0],[0,1,0]],"source":)") + source + "}"));
+    ASSERT_TRUE(read) << source;
+    EXPECT_FALSE(read->source) << source;
+  }
+}
+
 TEST(OutlineFile, AcceptsFurtherFields) {
   const TemporaryFolder folder;
   const auto read = readOutlinePoints(fileWith(

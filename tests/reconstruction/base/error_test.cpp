@@ -37,6 +37,7 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::ReferenceSkinFailed:
     case ErrorCode::TissueInvalid:
     case ErrorCode::ScoreInputInvalid:
+    case ErrorCode::NoSuggestion:
     case ErrorCode::FontMissing:
       return true;
   }
