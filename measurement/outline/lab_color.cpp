@@ -23,15 +23,19 @@ double lightness(double t) {
 
 }  // namespace
 
-Eigen::Vector3d labOf(Rgb8 color) {
+Eigen::Vector3d linearOf(Rgb8 color) {
   static const std::array<double, 256> kLinear = linearLight();
-  const double r = kLinear[color.r];
-  const double g = kLinear[color.g];
-  const double b = kLinear[color.b];
-  const double x = lightness((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
-  const double y = lightness(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
-  const double z = lightness((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+  return {kLinear[color.r], kLinear[color.g], kLinear[color.b]};
+}
+
+Eigen::Vector3d labOfLinear(const Eigen::Vector3d& linear_rgb) {
+  const Eigen::Vector3d& c = linear_rgb;
+  const double x = lightness(Eigen::Vector3d(0.4124564, 0.3575761, 0.1804375).dot(c) / 0.95047);
+  const double y = lightness(Eigen::Vector3d(0.2126729, 0.7151522, 0.0721750).dot(c));
+  const double z = lightness(Eigen::Vector3d(0.0193339, 0.1191920, 0.9503041).dot(c) / 1.08883);
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
+
+Eigen::Vector3d labOf(Rgb8 color) { return labOfLinear(linearOf(color)); }
 
 }  // namespace tarsus

@@ -158,30 +158,6 @@ std::vector<Tissue> byMajority(const TissueBed& bed,
 
 }  // namespace
 
-Vector3d linearOf(const Rgb8& color) {
-  // IEC 61966-2-1.
-  const auto channel = [](std::uint8_t stored) {
-    const double x = stored / 255.0;
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-  };
-  return {channel(color.r), channel(color.g), channel(color.b)};
-}
-
-Vector3d labOfLinear(const Vector3d& linear_rgb) {
-  Eigen::Matrix3d xyz_from_rgb;
-  xyz_from_rgb << 0.4124564, 0.3575761, 0.1804375,  //
-      0.2126729, 0.7151522, 0.0721750,              //
-      0.0193339, 0.1191920, 0.9503041;
-  const Vector3d white(0.95047, 1.0, 1.08883);  // D65, 2 degrees
-  const Vector3d xyz = (xyz_from_rgb * linear_rgb).cwiseQuotient(white);
-  const auto f = [](double t) {
-    return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
-  };
-  return {116.0 * f(xyz.y()) - 16.0,
-          500.0 * (f(xyz.x()) - f(xyz.y())),
-          200.0 * (f(xyz.y()) - f(xyz.z()))};
-}
-
 Expected<TissueMap> proposeTissue(const TexturedMesh& foot,
                                   const TissueBed& bed,
                                   const TissueColorOptions& options) {

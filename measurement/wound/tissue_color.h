@@ -1,15 +1,11 @@
 #pragma once
 
+#include "measurement/outline/lab_color.h"
 #include "measurement/wound/tissue.h"
 
 #include <Eigen/Core>
 
 namespace tarsus {
-
-/// CIE L*a*b* under D65 of linear sRGB (IEC 61966-2-1 primaries), each channel in [0, 1].
-[[nodiscard]] Eigen::Vector3d labOfLinear(const Eigen::Vector3d& linear_rgb);
-/// Light of an sRGB colour, each channel in [0, 1].
-[[nodiscard]] Eigen::Vector3d linearOf(const Rgb8& color);
 
 /// Borders between the classes. Redness and yellowness are a* and b* over L* + 16, which shade
 /// leaves as they are; saturation and hue are their polar form. All our choice: between the middles
