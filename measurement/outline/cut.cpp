@@ -1,6 +1,7 @@
 #include "measurement/outline/cut.h"
 
 #include "measurement/outline/face_split.h"
+#include "measurement/outline/union_find.h"
 
 #include <algorithm>
 #include <cmath>
@@ -184,83 +185,77 @@ class Cutter {
     return true;
   }
 
-  /// The face on the other side of edge k, -1 at a border.
-  [[nodiscard]] int across(int face, int k) const {
-    const int a = cut_.faces[face][k];
-    const int b = cut_.faces[face][(k + 1) % 3];
-    const int parent = cut_.parents[face];
-    int neighbor = -1;
-    if (face < first_part_) {
-      neighbor = patch_.neighbors[parent][k];
-    } else {
-      const auto part = part_of_edge_.find(directed(b, a));
-      if (part != part_of_edge_.end()) {
-        return part->second;
-      }
-      const int corner = patch_.cornerOf(parent, a);
-      if (corner < 0 || patch_.faces[parent][(corner + 1) % 3] != b) {
-        return -1;  // half of a border edge
-      }
-      neighbor = patch_.neighbors[parent][corner];
+  /// The face on the other side of edge k of a part, -1 at a border.
+  [[nodiscard]] int across(int part, int k) const {
+    const int a = cut_.faces[part][k];
+    const int b = cut_.faces[part][(k + 1) % 3];
+    const auto other = part_of_edge_.find(directed(b, a));
+    if (other != part_of_edge_.end()) {
+      return other->second;
     }
-    if (neighbor < 0 || whole_[neighbor] >= 0) {
-      return neighbor < 0 ? -1 : whole_[neighbor];
+    const int parent = cut_.parents[part];
+    const int corner = patch_.cornerOf(parent, a);
+    if (corner < 0 || patch_.faces[parent][(corner + 1) % 3] != b) {
+      return -1;  // half of a border edge
     }
-    const auto part = part_of_edge_.find(directed(b, a));
-    return part != part_of_edge_.end() ? part->second : -1;
+    const int neighbor = patch_.neighbors[parent][corner];
+    return neighbor < 0 ? -1 : whole_[neighbor];
   }
 
-  /// The faces at the curve itself: those with an edge along it lie left, against it right.
-  [[nodiscard]] bool seed(std::vector<int>& open) {
-    std::size_t found = 0;
-    for (int i = first_part_; i < static_cast<int>(cut_.faces.size()); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const int a = cut_.faces[i][k];
-        const int b = cut_.faces[i][(k + 1) % 3];
-        const bool left = barrier_.contains(directed(a, b));
-        const bool right = barrier_.contains(directed(b, a));
-        found += left ? 1 : 0;
-        if ((left || right) && !mark(i, left ? CurveSide::Left : CurveSide::Right, open)) {
-          return false;
+  /// Faces that connect without crossing the curve. One pass in the order of memory: walking from
+  /// face to face takes several times as long on a large patch.
+  void joinFaces(UnionFind& sets) const {
+    for (int i = 0; i < first_part_; ++i) {
+      for (const int neighbor : patch_.neighbors[cut_.parents[i]]) {
+        if (neighbor > cut_.parents[i] && whole_[neighbor] >= 0) {
+          sets.join(i, whole_[neighbor]);
         }
       }
     }
-    return found == curve_.nodes.size();
+    for (int i = first_part_; i < static_cast<int>(cut_.faces.size()); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const int next = onCurve(cut_.faces[i][k], cut_.faces[i][(k + 1) % 3]) ? -1 : across(i, k);
+        if (next >= 0) {
+          sets.join(i, next);
+        }
+      }
+    }
   }
 
   [[nodiscard]] bool onCurve(int a, int b) const {
     return barrier_.contains(directed(a, b)) || barrier_.contains(directed(b, a));
   }
 
-  [[nodiscard]] bool mark(int face, CurveSide side, std::vector<int>& open) {
-    if (cut_.sides[face] == CurveSide::Apart) {
-      cut_.sides[face] = side;
-      open.push_back(face);
-    }
-    return cut_.sides[face] == side;
-  }
-
+  /// Names the sides: faces with an edge along the curve lie left, against it right. False where
+  /// one set of faces would be both.
   [[nodiscard]] bool label() {
-    cut_.sides.assign(cut_.faces.size(), CurveSide::Apart);
-    std::vector<int> open;
-    if (!seed(open)) {
-      return false;
-    }
-    while (!open.empty()) {
-      const int face = open.back();
-      open.pop_back();
+    UnionFind sets(cut_.faces.size());
+    joinFaces(sets);
+    std::vector<CurveSide>& sides = cut_.sides;
+    sides.assign(cut_.faces.size(), CurveSide::Apart);
+    std::size_t found = 0;
+    for (int i = first_part_; i < static_cast<int>(cut_.faces.size()); ++i) {
       for (int k = 0; k < 3; ++k) {
-        if (face >= first_part_ && onCurve(cut_.faces[face][k], cut_.faces[face][(k + 1) % 3])) {
+        const int a = cut_.faces[i][k];
+        const int b = cut_.faces[i][(k + 1) % 3];
+        const bool left = barrier_.contains(directed(a, b));
+        if (!left && !barrier_.contains(directed(b, a))) {
           continue;
         }
-        const int next = across(face, k);
-        if (next >= 0 && !mark(next, cut_.sides[face], open)) {
+        found += left ? 1 : 0;
+        CurveSide& side = sides[sets.root(i)];
+        const CurveSide own = left ? CurveSide::Left : CurveSide::Right;
+        if (side != CurveSide::Apart && side != own) {
           return false;
         }
+        side = own;
       }
     }
+    for (int i = 0; i < static_cast<int>(sides.size()); ++i) {
+      sides[i] = sides[sets.root(i)];
+    }
     findReach();
-    return true;
+    return found == curve_.nodes.size();
   }
 
   void findReach() {

@@ -1,6 +1,7 @@
 #include "measurement/outline/surface_patch.h"
 
 #include "measurement/outline/segment.h"
+#include "measurement/outline/union_find.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,25 +13,6 @@ namespace {
 /// Vertices closer than this along an edge are one vertex: below the resolution of a float at
 /// 100 mm.
 constexpr double kWeldLength_mm = 1e-5;
-
-struct UnionFind {
-  std::vector<int> parent;
-  explicit UnionFind(std::size_t count) : parent(count) {
-    std::iota(parent.begin(), parent.end(), 0);
-  }
-  int root(int i) {
-    while (parent[i] != i) {
-      parent[i] = parent[parent[i]];
-      i = parent[i];
-    }
-    return i;
-  }
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent[std::max(a, b)] = std::min(a, b);  // the smaller index stays: independent of order
-  }
-};
 
 /// Gives coincident vertices one index; compacts vertices, drops faces that collapse.
 void weld(SurfacePatch& patch) {
