@@ -34,6 +34,8 @@ void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);
 void addMeasure(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);
+void addPhantom(CLI::App& app, Command& command);
+void addVerify(CLI::App& app, Command& command);
 void addDemo(CLI::App& app, Command& command);
 
 }  // namespace tarsus

@@ -83,6 +83,8 @@ int parseAndRun(int argc, char** argv) {
   addEvaluate(app, command);
   addMeasure(app, command);
   addReport(app, command);
+  addPhantom(app, command);
+  addVerify(app, command);
   addDemo(app, command);
   try {
     app.parse(argc, argv);

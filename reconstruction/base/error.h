@@ -33,6 +33,7 @@ enum class ErrorCode {
   SkinCurveInvalid,
   ReferenceSkinFailed,
   FontMissing,
+  PhantomNotFound,
 };
 
 /// A failure the world can cause. Bugs are not Errors: they go through TARSUS_REQUIRE.

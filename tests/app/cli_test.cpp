@@ -58,8 +58,15 @@ class Cli : public ::testing::Test {
 
 TEST_F(Cli, HelpIsThereForEveryCommand) {
   EXPECT_EQ(cli("--help").exit_code, 0);
-  for (const std::string command :
-       {"simulate", "reconstruct", "texture", "evaluate", "measure", "report", "demo"}) {
+  for (const std::string command : {"simulate",
+                                    "reconstruct",
+                                    "texture",
+                                    "evaluate",
+                                    "measure",
+                                    "report",
+                                    "phantom",
+                                    "verify",
+                                    "demo"}) {
     const CliRun run = cli(command + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_NE(run.output.find("--json"), std::string::npos) << run.output;
