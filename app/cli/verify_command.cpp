@@ -81,10 +81,11 @@ Expected<Scanned> readModel(const fs::path& file, const fs::path& folder) {
 }
 
 Expected<Scanned> modelOf(const Arguments& arguments, const Job& job) {
-  if (fs::is_regular_file(arguments.scan)) {
+  std::error_code unreadable;  // then the reader of scans says what is wrong
+  if (fs::is_regular_file(arguments.scan, unreadable)) {
     return readModel(arguments.scan, {});
   }
-  if (fs::is_regular_file(arguments.scan / "model.ply")) {
+  if (fs::is_regular_file(arguments.scan / "model.ply", unreadable)) {
     return readModel(arguments.scan / "model.ply", arguments.scan);
   }
   return reconstructed(arguments, job);

@@ -112,8 +112,8 @@ std::map<std::string, double> chartValues(const Verification& verification) {
   return values;
 }
 
-Chart parseChart(std::string_view text) {
-  Chart chart;
+ControlChart parseChart(std::string_view text) {
+  ControlChart chart;
   int number = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

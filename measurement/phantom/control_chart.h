@@ -33,11 +33,11 @@ struct ChartEntry {
 /// area_error_percent, volume_error_percent, p99_depth_error_mm.
 [[nodiscard]] std::map<std::string, double> chartValues(const Verification& verification);
 
-struct Chart {
+struct ControlChart {
   std::vector<ChartEntry> entries;
   std::vector<int> damaged_lines;  ///< from 1; kept in the file, not used
 };
-[[nodiscard]] Chart parseChart(std::string_view text);
+[[nodiscard]] ControlChart parseChart(std::string_view text);
 /// @return  without the line's end
 [[nodiscard]] std::string chartLine(const ChartEntry& entry);
 
@@ -66,7 +66,7 @@ struct SeriesControl {
 [[nodiscard]] std::vector<ChartEntry> comparableEntries(std::span<const ChartEntry> entries);
 
 struct AppendedChart {
-  Chart chart;         ///< the entry is its last
+  ControlChart chart;  ///< the entry is its last
   bool is_new = true;  ///< false: this scan is in the file already, nothing was written
 };
 /// Adds a line; the file is replaced as a whole, and what stood in it stays, damaged lines too.

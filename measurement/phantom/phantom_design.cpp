@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tarsus {
@@ -187,80 +188,89 @@ PhantomDesign footBlock() {
   return block;
 }
 
-struct DiscPlan {
+struct PlatePlan {
   std::string name;
   std::string surface;
   Crater crater;
   double top_mm;
-  std::vector<double> bumps_deg;  ///< directions of the bumps: as many tell which disc it is
+  int bumps;  ///< as many tell which plate it is
 };
 
-constexpr double kDiscRadius_mm = 45.0;
-constexpr double kRimHeight_mm = 5.0;
+constexpr double kPlateRim_mm = 5.0;
+constexpr double kPlateRise_mm = 24.0;
+constexpr double kPlateFlank_mm = 26.0;
 
-/// A wound on a pad, a skirt that slopes to the rim, and bumps that leave no doubt how it is
-/// turned.
-PhantomDesign disc(const DiscPlan& plan) {
+/// Distance from the border of a convex plan, inward.
+double insideOf(const std::vector<Vector2d>& plan, const Vector2d& p) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const Vector2d& a = plan[i];
+    const Vector2d& b = plan[(i + 1) % plan.size()];
+    least = std::min(least, cross(a, b, p) / (b - a).norm());
+  }
+  return least;
+}
+
+/// The wound's own skin, which bends down where it need not be exact any more.
+Height padOf(const PlatePlan& plan) {
   const PhantomSkin skin = plan.crater.skin;
   const double exact_mm = plan.crater.radius_mm + kExactSkin_mm;
-  const Height pad = [=](const Vector2d& p) {
+  return [=, top_mm = plan.top_mm](const Vector2d& p) {
     const double end = rolledOff(p.norm() - exact_mm - 0.3, 3.0);
-    const double away = skin.form == SkinForm::Plane      ? 0.0
-                        : skin.form == SkinForm::Cylinder ? p.x()
-                                                          : p.norm();
-    const double below =
-        skin.radius_mm - std::sqrt(std::max(0.0, skin.radius_mm * skin.radius_mm - away * away));
-    return plan.top_mm - below - end;
+    if (skin.form == SkinForm::Plane) {
+      return top_mm - end;
+    }
+    const double away = skin.form == SkinForm::Cylinder ? p.x() : p.norm();
+    const double z2 = skin.radius_mm * skin.radius_mm - away * away;
+    return top_mm - skin.radius_mm + std::sqrt(std::max(0.0, z2)) - end;
   };
-  const auto skirt_at = [](double from_middle_mm) {
-    return kRimHeight_mm + 0.4 * (kDiscRadius_mm - from_middle_mm);
-  };
-  const Height skirt = [=](const Vector2d& p) { return std::min(13.0, skirt_at(p.norm())); };
-  std::vector<Height> parts{pad, skirt};
-  double highest_mm = 0.0;
-  for (std::size_t i = 0; i < plan.bumps_deg.size(); ++i) {
-    const double angle = plan.bumps_deg[i] / 360.0 * kTurn;
-    constexpr double kFromMiddle_mm = 35.0;
-    const double radius_mm = i == 0 ? 12.0 : i % 2 == 1 ? 8.0 : 10.0;
-    const double z = skirt_at(kFromMiddle_mm) - 0.55 * radius_mm;
-    parts.push_back(
-        sphere({kFromMiddle_mm * std::cos(angle), kFromMiddle_mm * std::sin(angle), z}, radius_mm));
-    highest_mm = std::max(highest_mm, z + radius_mm);
-  }
+}
+
+/// A wound on a pad in the middle of a loaf that is longer than wide and higher than a plate need
+/// be: its flanks are what the camera's motion is followed by. A round flat disc turns on a table
+/// without the tracker noticing.
+PhantomDesign plate(const PlatePlan& plan) {
   PhantomDesign design;
   design.name = plan.name;
-  design.title = "Disc, " + plan.surface + " (" + std::to_string(plan.bumps_deg.size()) + " bumps)";
-  design.plan = planAround({{Vector2d::Zero(), kDiscRadius_mm}});
+  design.title = "Plate, " + plan.surface + " (" + std::to_string(plan.bumps) + " bumps)";
+  design.plan = planAround({{{-15, 0}, 40}, {{15, 0}, 40}, {{70, 10}, 30}, {{-66, -12}, 28}});
+  const Height loaf = [border = design.plan](const Vector2d& p) {
+    const double rest = 1.0 - std::clamp(insideOf(border, p) / kPlateFlank_mm, 0.0, 1.0);
+    return kPlateRim_mm + kPlateRise_mm * (1.0 - rest * rest);
+  };
+  std::vector<Height> parts{padOf(plan), loaf};
+  const std::array<Vector2d, 6> places{
+      {{72, 16}, {-68, -14}, {46, 2}, {-46, -6}, {88, 4}, {-58, 4}}};
+  double highest_mm = 0.0;
+  for (int i = 0; i < plan.bumps; ++i) {
+    const Vector2d& place = places[static_cast<std::size_t>(i)];
+    const double radius_mm = i == 0 ? 10.0 : 7.0;
+    const double z = loaf(place) - 0.5 * radius_mm;
+    parts.push_back(sphere({place.x(), place.y(), z}, radius_mm));
+    highest_mm = std::max(highest_mm, z + radius_mm);
+  }
   design.healthy_top_mm = joined(std::move(parts), 2.0);
   design.wounds = {{"wound",
                     plan.surface,
                     plan.crater,
                     placed({0, 0, plan.top_mm}, Vector3d::UnitZ(), Vector3d::UnitY())}};
-  design.control_distances = {{{"diameter", 2.0 * kDiscRadius_mm},
+  design.control_distances = {{{"between the two parallel walls in the middle", 80.0},
                                {"from the base to the top of the largest bump", highest_mm}}};
   return design;
 }
 
 }  // namespace
 
+/// The plates' tops differ by 4 mm and more, so that none is taken for another.
 std::vector<PhantomDesign> phantomDesigns() {
+  const PhantomSkin cylinder{SkinForm::Cylinder, 44.0};
+  const PhantomSkin small_sphere{SkinForm::Sphere, 30.0};
+  const PhantomSkin sphere{SkinForm::Sphere, 44.0};
   return {footBlock(),
-          disc({"disc_flat", "flat", {{}, 12.0, 6.0, 6.0}, 20.0, {10, 80, 205}}),
-          disc({"disc_cylinder_r44",
-                "cylinder R44",
-                {{SkinForm::Cylinder, 44.0}, 12.0, 7.0, 5.0},
-                22.0,
-                {40, 115, 170, 285}}),
-          disc({"disc_sphere_r30",
-                "sphere R30",
-                {{SkinForm::Sphere, 30.0}, 10.0, 6.0, 4.0},
-                24.0,
-                {0, 55, 125, 170, 270}}),
-          disc({"disc_sphere_r44",
-                "sphere R44",
-                {{SkinForm::Sphere, 44.0}, 12.0, 7.0, 5.0},
-                22.0,
-                {20, 65, 110, 200, 245, 320}})};
+          plate({"plate_flat", "flat", {{}, 12.0, 6.0, 6.0}, 32.0, 3}),
+          plate({"plate_cylinder_r44", "cylinder R44", {cylinder, 12.0, 7.0, 5.0}, 37.5, 4}),
+          plate({"plate_sphere_r30", "sphere R30", {small_sphere, 10.0, 6.0, 4.0}, 46.0, 5}),
+          plate({"plate_sphere_r44", "sphere R44", {sphere, 12.0, 7.0, 5.0}, 42.0, 6})};
 }
 
 }  // namespace tarsus

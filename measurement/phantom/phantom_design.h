@@ -34,13 +34,13 @@ struct ControlDistance {
 struct PhantomDesign {
   std::string name;
   std::string title;
-  std::vector<Eigen::Vector2d> plan;  ///< convex, counter-clockwise, points about 1.5 mm apart
+  std::vector<Eigen::Vector2d> plan;  ///< convex, counter-clockwise, points about 1.2 mm apart
   std::function<double(const Eigen::Vector2d&)> healthy_top_mm;  ///< height without wounds
   std::vector<PhantomWound> wounds;
   std::array<ControlDistance, 2> control_distances;
 };
 
-/// The foot block first, then the discs.
+/// The foot block first, then the plates.
 [[nodiscard]] std::vector<PhantomDesign> phantomDesigns();
 
 }  // namespace tarsus

@@ -10,7 +10,7 @@ constexpr const char* kBeforeTable =
     R"(Phantoms: wounds of exactly known size, to see whether a camera measures right today
 ====================================================================================
 Each NAME.stl is a body to print (millimetres), NAME.phantom.json says what its wounds measure
-exactly and where they lie. foot_block carries all four surfaces and suits a daily check; the discs
+exactly and where they lie. foot_block carries all four surfaces and suits a daily check; the plates
 carry one each, and their number of bumps tells them apart.
 
 Print
@@ -19,7 +19,7 @@ Print
   Colour: light and matt, one colour (white, light grey, skin). Glossy plastic gets a thin coat of
   matt spray. No speckle or texture is needed: only the shape counts.
 
-Check the print with a caliper before it is used; it must be right to 0.2 %:
+Check the print with a caliper before it is used; it must be right to 0.2 %, or to 0.1 mm:
 )";
 
 constexpr const char* kAfterTable =
@@ -27,8 +27,9 @@ constexpr const char* kAfterTable =
   keep the phantom out of the sun, and check it again every few months.
 
 Scan
-  Lay the phantom on a table, wounds up, nothing else within 10 cm. Let the camera warm up as for a
-  patient. Scan at 30 to 45 cm for 20 s from all sides, as a foot is scanned.
+  Lay the phantom on a table, wounds up, nothing else within 10 cm; things farther away help the
+  camera to know where it is. Let it warm up as for a patient. Scan at 30 to 45 cm for 20 s from all
+  sides, as a foot is scanned.
 
 Verify
   tarsus-cli verify SCAN foot_block.phantom.json
@@ -55,7 +56,7 @@ std::string phantomGuide(const std::vector<PhantomDesign>& designs) {
                     "    %-55s %7.2f +- %.2f mm\n",
                     distance.what.c_str(),
                     distance.mm,
-                    kControlTolerance * distance.mm);
+                    controlTolerance_mm(distance.mm));
       text += line.data();
     }
   }

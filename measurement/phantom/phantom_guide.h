@@ -2,14 +2,17 @@
 
 #include "measurement/phantom/phantom_design.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace tarsus {
 
-/// A print whose control distances are off by more than this share is not used: less than half of
-/// the limit on scale.
-inline constexpr double kControlTolerance = 0.002;
+/// How far a control distance may be off: 0.2 %, less than half of the limit on scale, or a
+/// layer's rounding.
+[[nodiscard]] inline double controlTolerance_mm(double distance_mm) {
+  return std::max(0.1, 0.002 * distance_mm);
+}
 inline constexpr double kLayerHeight_mm = 0.12;
 
 /// The text of PHANTOM.txt: how to print, check, scan and verify.

@@ -113,7 +113,7 @@ json phantomJson(const PhantomDesign& design, const Phantom& phantom, std::strin
   for (const ControlDistance& distance : design.control_distances) {
     distances.push_back({{"what", distance.what},
                          {"mm", distance.mm},
-                         {"tolerance_mm", kControlTolerance * distance.mm}});
+                         {"tolerance_mm", controlTolerance_mm(distance.mm)}});
   }
   return {{"format", kFormat},
           {"format_version", kFormatVersion},

@@ -2,6 +2,7 @@
 
 #include "measurement/phantom/surface_fit.h"
 #include "reconstruction/base/error.h"
+#include "reconstruction/scene/mesh_distance.h"
 
 namespace tarsus {
 
@@ -28,5 +29,12 @@ struct PhantomPoseOptions {
                                                 const TriangleMesh& model,
                                                 const MeshIndex& index,
                                                 const PhantomPoseOptions& options = {});
+
+/// Share of the phantom's upper side within a ball (phantom frame) that the model shows there.
+[[nodiscard]] double shareWithin(const TriangleMesh& body,
+                                 const Ball& ball,
+                                 const TriangleMesh& model,
+                                 const MeshIndex& index,
+                                 const Similarity& model_from_phantom);
 
 }  // namespace tarsus

@@ -22,7 +22,7 @@ constexpr int kAngleBins = 15;     ///< of half a turn: the paper's 12 degrees
 constexpr int kTurnBins = 30;
 /// Pairs nearer than this share of the diameter say little about the pose; ours.
 constexpr double kNearest = 0.12;
-constexpr std::size_t kMostReferences = 400;
+constexpr std::size_t kMostReferences = 250;
 /// Poses nearer than this to a stronger one are the same; ours.
 constexpr double kSameTurn_rad = 12.0 / 360.0 * kTurn;
 constexpr double kSameShift = 0.05;  ///< of the diameter
@@ -176,7 +176,7 @@ struct CellSum {
 
 }  // namespace
 
-OrientedPoints thinned(const TriangleMesh& mesh, double cell_mm) {
+OrientedPoints orientedPoints(const TriangleMesh& mesh, double cell_mm) {
   const std::vector<Eigen::Vector3f> normals =
       mesh.normals.size() == mesh.vertices.size() ? mesh.normals : vertexNormals(mesh);
   std::map<std::array<std::int64_t, 3>, CellSum> cells;

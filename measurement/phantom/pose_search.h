@@ -16,7 +16,7 @@ struct OrientedPoints {
 
 /// One point for each cubic cell that holds surface: the mean of its vertices by the area around
 /// them. Cells over an edge, whose normals disagree, are left out.
-[[nodiscard]] OrientedPoints thinned(const TriangleMesh& mesh, double cell_mm);
+[[nodiscard]] OrientedPoints orientedPoints(const TriangleMesh& mesh, double cell_mm);
 
 /// Poses in which the body may lie in the scene, the most voted first; clutter and missing parts
 /// are allowed for, a start is not needed.

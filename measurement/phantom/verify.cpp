@@ -46,6 +46,29 @@ std::vector<Vector3d> carried(const Similarity& model_from_phantom,
   return moved;
 }
 
+/// Around the wound and some skin beside it.
+Ball ballAround(const KnownWound& wound) {
+  Ball ball;
+  for (const Vector3d& p : wound.outline_mm) {
+    ball.center_mm += p / static_cast<double>(wound.outline_mm.size());
+  }
+  for (const Vector3d& p : wound.skin_curve_mm) {
+    ball.radius_mm = std::max(ball.radius_mm, (p - ball.center_mm).norm() + 5.0);
+  }
+  return ball;
+}
+
+/// Whether the model shows what the phantom has there: half of the surface at least.
+bool showsWound(const TexturedMesh& model,
+                const MeshIndex& index,
+                const Phantom& phantom,
+                const KnownWound& wound,
+                const Similarity& model_from_phantom) {
+  constexpr double kLeastShare = 0.5;
+  return shareWithin(phantom.mesh, ballAround(wound), model.mesh, index, model_from_phantom) >=
+         kLeastShare;
+}
+
 /// The rim on the model, met along the skin's normals: to the nearest point of a rim that the scan
 /// has rounded, it would move outward (1 % of area at 0.1 mm of rounding).
 std::vector<Vector3d> carriedRim(const MeshIndex& index,
@@ -203,9 +226,21 @@ Expected<Verification> verifyModel(const TexturedMesh& model,
   result.scale_error_percent = 100.0 * (pose->model_from_phantom.scale - 1.0);
   result.surface_rms_mm = pose->at_true_size.rms_mm;
   result.inlier_share = pose->quality.inlier_share;
+  int shown = 0;
   for (const KnownWound& wound : phantom.wounds) {
+    if (!showsWound(model, index, phantom, wound, result.model_from_phantom)) {
+      result.wounds.push_back({.name = wound.name,
+                               .site = wound.site,
+                               .values = {},
+                               .why_not = "the model does not show it where it should be."});
+      continue;
+    }
+    ++shown;
     result.wounds.push_back(
         checked(wound, measureKnown(model, index, wound, result.model_from_phantom), limits));
+  }
+  if (shown == 0) {
+    return fail(ErrorCode::PhantomNotFound, "what was found has no wound of " + phantom.name);
   }
   result.reasons = reasonsAgainst(result, limits);
   result.within_limits = result.reasons.empty();

@@ -134,7 +134,7 @@ TEST(ControlChart, LinesReadBackAsTheyWere) {
   written.seconds_since_power_on.reset();
   const std::string line = chartLine(written);
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  const Chart chart = parseChart(line + "\n" + chartLine(entry(2, 1.0)));
+  const ControlChart chart = parseChart(line + "\n" + chartLine(entry(2, 1.0)));
   ASSERT_EQ(chart.entries.size(), 2U);
   EXPECT_TRUE(chart.damaged_lines.empty());
   EXPECT_EQ(chart.entries[0].values, written.values);
@@ -157,7 +157,7 @@ TEST(ControlChart, AppendsAndKeepsDamagedLines) {
   ASSERT_EQ(second->chart.entries.size(), 2U);
   const std::string now = readTextFile(path).value_or("");
   EXPECT_EQ(now, first + "\n" + damage + "\n" + chartLine(entry(2, 0.2)) + "\n");
-  const Chart read = parseChart(now);
+  const ControlChart read = parseChart(now);
   EXPECT_EQ(read.entries.size(), 2U);
   EXPECT_EQ(read.damaged_lines, std::vector<int>{3});
 }
@@ -166,7 +166,7 @@ TEST(ControlChart, WrongTypesAreDamageToo) {
   const std::string good = chartLine(entry(1, 0.1));
   std::string bad = good;
   bad.replace(bad.find("\"foot_block\""), 12, "[1,2]       ");
-  const Chart chart = parseChart("null\n" + bad + "\n7\n" + good + "\n");
+  const ControlChart chart = parseChart("null\n" + bad + "\n7\n" + good + "\n");
   EXPECT_EQ(chart.entries.size(), 1U);
   EXPECT_EQ(chart.damaged_lines, (std::vector<int>{1, 2, 3}));
 }

@@ -22,11 +22,11 @@ class PhantomKit : public ::testing::Test {
   }
   [[nodiscard]] fs::path file(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] json facts() const {
-    return json::parse(readTextFile(file("disc_flat.phantom.json")).value_or(""));
+    return json::parse(readTextFile(file("plate_flat.phantom.json")).value_or(""));
   }
   void expectRefused(const json& document, ErrorCode code, const std::string& word) const {
-    ASSERT_TRUE(writeTextAtomically(file("disc_flat.phantom.json"), document.dump()));
-    const auto phantom = readPhantom(file("disc_flat.phantom.json"));
+    ASSERT_TRUE(writeTextAtomically(file("plate_flat.phantom.json"), document.dump()));
+    const auto phantom = readPhantom(file("plate_flat.phantom.json"));
     ASSERT_FALSE(phantom);
     EXPECT_EQ(phantom.error().code, code);
     EXPECT_NE(phantom.error().detail.find(word), std::string::npos) << phantom.error().detail;
@@ -62,8 +62,9 @@ TEST_F(PhantomKit, TellsHowToPrintCheckScanAndVerify) {
                                  "0.12 mm",
                                  "tarsus-cli verify",
                                  "foot_block",
-                                 "disc_sphere_r30",
+                                 "plate_sphere_r30",
                                  "92.00",
+                                 "80.00",
                                  "Not a medical device"}) {
     EXPECT_NE(guide.find(word), std::string::npos) << word;
   }
@@ -116,16 +117,16 @@ TEST_F(PhantomKit, RefusesDamageAndOtherVersions) {
 
 TEST_F(PhantomKit, RefusesAnotherSurfaceThanTheOneDescribed) {
   const json whole = facts();
-  std::string stl = readTextFile(file("disc_flat.stl")).value_or("");
+  std::string stl = readTextFile(file("plate_flat.stl")).value_or("");
   stl[5000] = static_cast<char>(stl[5000] ^ 1);
-  ASSERT_TRUE(writeTextAtomically(file("disc_flat.stl"), stl));
+  ASSERT_TRUE(writeTextAtomically(file("plate_flat.stl"), stl));
   expectRefused(whole, ErrorCode::FileUnreadable, "not the surface");
-  fs::remove(file("disc_flat.stl"));
-  expectRefused(whole, ErrorCode::FileMissing, "disc_flat.stl");
+  fs::remove(file("plate_flat.stl"));
+  expectRefused(whole, ErrorCode::FileMissing, "plate_flat.stl");
 }
 
 TEST_F(PhantomKit, SaysWhenTheFolderCannotBeWritten) {
-  const auto written = writePhantomKit(file("disc_flat.stl"), "1");
+  const auto written = writePhantomKit(file("plate_flat.stl"), "1");
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, ErrorCode::FileUnwritable);
 }

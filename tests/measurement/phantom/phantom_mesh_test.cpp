@@ -45,7 +45,7 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh) {
   return box;
 }
 
-TEST(PhantomMesh, TheKitHasTheFourSurfacesOnTheBlockAndOnDiscs) {
+TEST(PhantomMesh, TheKitHasTheFourSurfacesOnTheBlockAndOnPlates) {
   ASSERT_EQ(bodies().size(), 5U);
   std::map<std::pair<int, int>, int> seen;
   for (const Body& body : bodies()) {
@@ -119,7 +119,7 @@ TEST(PhantomMesh, FacesLookOutwardAndPrintWithoutSupport) {
     EXPECT_EQ(box.min().z(), 0.0);
     // Fits the usual printer of 220 mm, and is large enough to be followed by the camera.
     EXPECT_LT(box.sizes().maxCoeff(), 210.0);
-    EXPECT_GE(box.sizes().x(), 90.0 - 1e-3);
+    EXPECT_GT(box.sizes().x(), 180.0);
   }
 }
 
@@ -195,14 +195,11 @@ TEST(PhantomMesh, ControlDistancesAreThoseOfTheBody) {
     const Eigen::AlignedBox3d box = boxOf(body.mesh);
     const bool block = body.design.name == "foot_block";
     EXPECT_NEAR(box.sizes().y(), body.design.control_distances[0].mm, 0.02) << body.design.name;
-    if (!block) {
-      EXPECT_NEAR(box.sizes().x(), body.design.control_distances[0].mm, 0.02);
-    }
     double highest = 0.0;  // where the caliper's foot would stand
     for (const auto& vertex : body.mesh.vertices) {
       const Vector3d p = vertex.cast<double>();
       const bool on_spot = block ? std::abs((p.head<2>() - Eigen::Vector2d(93, 24)).norm() - 15) < 1
-                                 : p.head<2>().norm() > 30.0;
+                                 : (p.head<2>() - Eigen::Vector2d(72, 16)).norm() < 5;
       highest = on_spot ? std::max(highest, p.z()) : highest;
     }
     EXPECT_NEAR(highest, body.design.control_distances[1].mm, 0.05) << body.design.name;

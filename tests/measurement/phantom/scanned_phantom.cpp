@@ -25,6 +25,17 @@ void addTable(TriangleMesh& mesh) {
 
 }  // namespace
 
+const std::vector<Phantom>& phantomKit() {
+  static const std::vector<Phantom> kit = [] {
+    std::vector<Phantom> made;
+    for (const PhantomDesign& design : phantomDesigns()) {
+      made.push_back(phantomOf(design));
+    }
+    return made;
+  }();
+  return kit;
+}
+
 TexturedMesh scanOf(const Phantom& phantom, const ScanLook& look) {
   TriangleMesh seen;
   seen.vertices = phantom.mesh.vertices;

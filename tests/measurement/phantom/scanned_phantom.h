@@ -5,8 +5,12 @@
 #include "reconstruction/scene/mesh.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace tarsus::test {
+
+/// The kit, in its order: the block, then the plates.
+[[nodiscard]] const std::vector<Phantom>& phantomKit();
 
 /// What a scan of a phantom may look like, without the cost of one.
 struct ScanLook {

@@ -14,7 +14,7 @@ namespace {
 using test::scanOf;
 using test::someWhere;
 
-Phantom block() { return phantomOf(phantomDesigns().front()); }
+const Phantom& block() { return test::phantomKit().front(); }
 
 bool says(const Verification& verification, const std::string& code) {
   return std::ranges::any_of(verification.reasons,
@@ -22,11 +22,10 @@ bool says(const Verification& verification, const std::string& code) {
 }
 
 TEST(Verify, ExactSurfacesMeasureAsPromised) {
-  for (const PhantomDesign& design : phantomDesigns()) {
-    const Phantom phantom = phantomOf(design);
+  for (const Phantom& phantom : test::phantomKit()) {
     const auto v = verifyModel(scanOf(phantom, {.scan_from_phantom = someWhere(2)}), phantom);
     ASSERT_TRUE(v) << describe(v.error());
-    EXPECT_TRUE(v->within_limits) << design.name;
+    EXPECT_TRUE(v->within_limits) << phantom.name;
     EXPECT_NEAR(v->scale_error_percent, 0.0, 0.01);
     for (const CheckedWound& wound : v->wounds) {
       EXPECT_EQ(wound.why_not, "");
@@ -37,14 +36,14 @@ TEST(Verify, ExactSurfacesMeasureAsPromised) {
                              : value.key == "volume_mm3"   ? 2.0
                              : value.key == "bed_area_mm2" ? 1.0
                                                            : 0.5;
-        EXPECT_NEAR(value.difference(), 0.0, limit) << design.name << wound.site << value.key;
+        EXPECT_NEAR(value.difference(), 0.0, limit) << phantom.name << wound.site << value.key;
       }
     }
   }
 }
 
 TEST(Verify, NoiseOfAFusedModelStaysWithinLimits) {
-  const Phantom phantom = block();
+  const Phantom& phantom = block();
   const auto v = verifyModel(
       scanOf(phantom, {.scan_from_phantom = someWhere(6), .noise_mm = 0.08, .seed = 4}), phantom);
   ASSERT_TRUE(v);
@@ -53,7 +52,7 @@ TEST(Verify, NoiseOfAFusedModelStaysWithinLimits) {
 }
 
 TEST(Verify, AWrongDepthUnitIsToldAsScale) {
-  const Phantom phantom = block();
+  const Phantom& phantom = block();
   for (const double scale : {0.98, 1.02}) {
     const auto v = verifyModel(
         scanOf(phantom, {.scan_from_phantom = someWhere(7), .scale = scale, .noise_mm = 0.05}),
@@ -72,7 +71,7 @@ TEST(Verify, AWrongDepthUnitIsToldAsScale) {
 }
 
 TEST(Verify, ARoughSurfaceIsTold) {
-  const Phantom phantom = block();
+  const Phantom& phantom = block();
   const auto v =
       verifyModel(scanOf(phantom, {.scan_from_phantom = someWhere(1), .noise_mm = 0.4}), phantom);
   ASSERT_TRUE(v);
@@ -81,7 +80,7 @@ TEST(Verify, ARoughSurfaceIsTold) {
 }
 
 TEST(Verify, AWoundThatWasNotSeenIsToldAndTheOthersAreMeasured) {
-  const Phantom phantom = block();
+  const Phantom& phantom = block();
   const Phantom holed = test::withHole(phantom, phantom.wounds[1].outline_mm[0], 6.0);
   const auto v = verifyModel(scanOf(holed, {.scan_from_phantom = someWhere(1)}), phantom);
   ASSERT_TRUE(v);
@@ -91,6 +90,17 @@ TEST(Verify, AWoundThatWasNotSeenIsToldAndTheOthersAreMeasured) {
   EXPECT_TRUE(v->wounds[1].values.empty());
   EXPECT_EQ(v->wounds[0].why_not, "");
   EXPECT_EQ(v->wounds[2].values.size(), 6U);
+}
+
+TEST(Verify, NoPlateIsTakenForAnother) {
+  const std::vector<Phantom>& kit = test::phantomKit();
+  for (std::size_t scanned = 1; scanned < kit.size(); ++scanned) {
+    const Phantom& named = kit[scanned % 4 + 1];  // the next one
+    const auto v =
+        verifyModel(scanOf(kit[scanned], {.scan_from_phantom = someWhere(scanned)}), named);
+    ASSERT_FALSE(v) << kit[scanned].name << " taken for " << named.name;
+    EXPECT_EQ(v.error().code, ErrorCode::PhantomNotFound);
+  }
 }
 
 TEST(Verify, JudgesByLimitsOnly) {
@@ -107,7 +117,7 @@ TEST(Verify, JudgesByLimitsOnly) {
 }
 
 TEST(Verify, JsonSaysEverythingThatIsPrinted) {
-  const Phantom phantom = phantomOf(phantomDesigns()[3]);
+  const Phantom& phantom = test::phantomKit()[3];
   const auto v = verifyModel(scanOf(phantom, {.scan_from_phantom = someWhere(2)}), phantom);
   ASSERT_TRUE(v);
   const nlohmann::json json = toJson(*v, {});

@@ -88,8 +88,8 @@ TEST_F(ObjectScene, TheCameraSeesItsTrueShape) {
   const auto& v = (*scene)->foot.mesh.vertices;
   const Eigen::Vector3d middle = 0.5 * (v[4] + v[6]).cast<double>();
   const Eigen::Vector2d px = source->camera().depth.project(middle);
-  const float z =
-      (*frame)->depth(static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+  const float z = (*frame)->depth.at(static_cast<int>(std::lround(px.x())),
+                                     static_cast<int>(std::lround(px.y())));
   EXPECT_NEAR(static_cast<double>(z), middle.z(), 0.6);  // half a pixel on a slope
 }
 
