@@ -17,7 +17,8 @@ CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const ch
 }
 
 std::string outputThatIsInput(const CLI::App& sub) {
-  const std::set<std::string> outputs{"--json", "OUT", "OUT_DIR", "--heatmap", "--artifacts"};
+  const std::set<std::string> outputs{
+      "--json", "OUT", "OUT_DIR", "--heatmap", "--artifacts", "--chart"};
   std::vector<std::string> written;
   std::vector<std::string> read;
   for (const CLI::Option* option : sub.get_options()) {

@@ -37,6 +37,8 @@ void addMeasure(CLI::App& app, Command& command);
 void addTissue(CLI::App& app, Command& command);
 void addScore(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);
+void addPhantom(CLI::App& app, Command& command);
+void addVerify(CLI::App& app, Command& command);
 void addDemo(CLI::App& app, Command& command);
 
 }  // namespace tarsus

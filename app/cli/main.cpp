@@ -86,6 +86,8 @@ int parseAndRun(int argc, char** argv) {
   addTissue(app, command);
   addScore(app, command);
   addReport(app, command);
+  addPhantom(app, command);
+  addVerify(app, command);
   addDemo(app, command);
   try {
     app.parse(argc, argv);

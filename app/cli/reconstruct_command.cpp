@@ -1,3 +1,4 @@
+#include "app/cli/camera_options.h"
 #include "app/cli/color_options.h"
 #include "app/cli/command.h"
 #include "app/cli/print.h"
@@ -20,24 +21,11 @@ struct Arguments {
   std::filesystem::path out;
   std::filesystem::path trajectory;
   std::filesystem::path region;
-  std::vector<double> intrinsics;
-  double depth_scale = 0.0;
+  CameraArguments camera;
   bool no_texture = false;
   ColorArguments color;
   ScanOptions options;
 };
-
-CameraOverrides overridesOf(const Arguments& arguments) {
-  CameraOverrides overrides;
-  if (arguments.intrinsics.size() == 4) {
-    const auto& k = arguments.intrinsics;
-    overrides.intrinsics = CameraOverrides::Pinhole{k[0], k[1], k[2], k[3]};
-  }
-  if (arguments.depth_scale > 0.0) {
-    overrides.depth_units_per_m = arguments.depth_scale;
-  }
-  return overrides;
-}
 
 void applyColors(Arguments& arguments) {
   const ColoringOptions options = coloringOf(arguments.color, arguments.options.color);
@@ -81,7 +69,7 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
     }
     arguments.options.region = *region;
   }
-  const CameraOverrides overrides = overridesOf(arguments);
+  const CameraOverrides overrides = overridesOf(arguments.camera);
   const ScanOpener open = [&](const FrameContent& content) {
     return openScanFolder(arguments.scan, overrides, content);
   };
@@ -129,12 +117,7 @@ void addReconstruct(CLI::App& app, Command& command) {
       ->type_name("FILE");
   addColorOptions(*sub, "--texture-iterations", arguments->color);
   sub->get_option("--atlas")->excludes("--no-texture");
-  sub->add_option("--intrinsics", arguments->intrinsics, "fx,fy,cx,cy in pixels")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("FX,FY,CX,CY");
-  sub->add_option("--depth-scale", arguments->depth_scale, "Depth units per metre (8000: 0.125 mm)")
-      ->check(CLI::PositiveNumber);
+  addCameraOptions(*sub, arguments->camera);
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) {
       return reconstruct(*arguments, !command.quiet && command.json_file != "-", job);

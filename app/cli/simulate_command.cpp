@@ -71,6 +71,17 @@ void addSimulationOptions(CLI::App& sub, SimulatorOptions& options) {
       ->type_name("FILE.obj");
 }
 
+/// For `simulate` alone: the demonstration shows a foot.
+void addObjectOption(CLI::App& sub, SimulatorOptions& options) {
+  sub.add_option("--object",
+                 options.object,
+                 "Instead of a foot: this object as it is, on a table (STL, PLY or OBJ, mm, z up); "
+                 "see the command phantom")
+      ->type_name("FILE")
+      ->excludes("--mesh")
+      ->excludes("--foot");
+}
+
 void addSimulate(CLI::App& app, Command& command) {
   struct Arguments {
     std::filesystem::path out;
@@ -82,6 +93,7 @@ void addSimulate(CLI::App& app, Command& command) {
   sub->add_option("OUT", arguments->out, "Scan folder to write, with truth/ in it")->required();
   addSimulationOptions(*sub, arguments->options);
   addFaultOption(*sub, arguments->options);
+  addObjectOption(*sub, arguments->options);
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) -> Expected<nlohmann::json> {
       if (auto done = simulateScan(arguments->out, arguments->options, job); !done) {

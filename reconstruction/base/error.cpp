@@ -107,6 +107,10 @@ constexpr std::array kEntries{
     Entry{ErrorCode::FontMissing,
           "font_missing",
           "The report's font was not found; install the package fonts-noto-core."},
+    Entry{ErrorCode::PhantomNotFound,
+          "phantom_not_found",
+          "The phantom was not found in the scan; check that it is the one named, lay it on a "
+          "table with its wounds up, clear what lies around it, and scan it again from all sides."},
 };
 
 const Entry& entryOf(ErrorCode code) {

@@ -37,6 +37,7 @@ enum class ErrorCode {
   ScoreInputInvalid,
   NoSuggestion,
   FontMissing,
+  PhantomNotFound,
 };
 
 /// A failure the world can cause. Bugs are not Errors: they go through TARSUS_REQUIRE.

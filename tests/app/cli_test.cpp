@@ -66,6 +66,8 @@ TEST_F(Cli, HelpIsThereForEveryCommand) {
                                     "tissue",
                                     "score",
                                     "report",
+                                    "phantom",
+                                    "verify",
                                     "demo"}) {
     const CliRun run = cli(command + " --help");
     EXPECT_EQ(run.exit_code, 0);

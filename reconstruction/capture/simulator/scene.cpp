@@ -1,4 +1,5 @@
 #include "reconstruction/capture/simulator/camera_path.h"
+#include "reconstruction/capture/simulator/object_scene.h"
 #include "reconstruction/capture/simulator/scan_fault.h"
 #include "reconstruction/capture/simulator/simulator.h"
 #include "reconstruction/capture/simulator/skin_color.h"
@@ -94,11 +95,32 @@ Trajectory truePoses(const SimulatorOptions& options, const RigidTransform& scan
   return trajectory;
 }
 
+Expected<std::shared_ptr<const SimulatedScene>> objectScene(const SimulatorOptions& options) {
+  auto object = loadObjectOnTable(options.object);
+  if (!object) {
+    return tl::unexpected(object.error());
+  }
+  const RigidTransform scan_from_foot = footFromCamera(options, 0.0).inverse();
+  auto scene = std::make_shared<SimulatedScene>();
+  scene->foot = std::move(object->object);
+  scene->surroundings = std::move(object->table);
+  move(scene->foot, scan_from_foot);
+  move(scene->surroundings, scan_from_foot);
+  scene->intact_foot = scene->foot.mesh;
+  scene->heel_mm = scan_from_foot * object->left_mm;
+  scene->toe_mm = scan_from_foot * object->right_mm;
+  scene->trajectory = truePoses(options, scan_from_foot);
+  return scene;
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOptions& options) {
   if (auto ok = checkOptions(options); !ok) {
     return tl::unexpected(ok.error());
+  }
+  if (!options.object.empty()) {
+    return objectScene(options);
   }
   Expected<IntactFoot> foot = options.mesh.empty() ? makeOwnFoot() : loadFoot(options.mesh);
   if (!foot) {

@@ -47,6 +47,9 @@ struct SimulatorOptions {
   double noise = 1.0;          ///< 0: exact depth and colour; 1: SR300 class
   double jitter_mm = 0.0;      ///< hand shake added to the rig's motion, standard deviation
   std::filesystem::path mesh;  ///< a closed foot mesh (OBJ, metres or mm) instead of our own
+  /// Instead of a foot: an object as it is (STL, PLY or OBJ, mm, z up from its base), on a table.
+  /// It has no wounds that the simulator knows of.
+  std::filesystem::path object;
 };
 
 /// What a simulated ulcer really measures, from the dense mesh; same definitions and names as
@@ -87,7 +90,7 @@ struct SimulatedScene {
   Trajectory trajectory;
 };
 
-/// @errors FileMissing, MeshInvalid (for options.mesh), BadOption
+/// @errors FileMissing, MeshInvalid (for options.mesh and options.object), BadOption
 [[nodiscard]] Expected<std::shared_ptr<const SimulatedScene>> buildScene(
     const SimulatorOptions& options);
 

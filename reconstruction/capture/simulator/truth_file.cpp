@@ -63,7 +63,8 @@ json truthJson(const SimulatedScene& scene, const SimulatorOptions& options) {
             {"seed", options.seed},
             {"noise", options.noise},
             {"jitter_mm", options.jitter_mm},
-            {"mesh", options.mesh.filename().string()}}}};
+            {"mesh", options.mesh.filename().string()},
+            {"object", options.object.filename().string()}}}};
 }
 
 }  // namespace
