@@ -236,7 +236,7 @@ void takeDepth(ReportContent& content,
   if (wound.numbers.max_depth_at_mm) {
     content.deepest_px = view.project(*wound.numbers.max_depth_at_mm, options);
   }
-  content.section = cutSection(foot, wound, view, options);
+  content.section = sectionForReport(foot, wound, view, options);
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 namespace tarsus {
 
 /// Cuts foot and reference skin through the deepest point and the middle of the outline, seen along
-/// the view; levelled on the two crossings of the skin curve.
+/// the view; levelled on the two crossings of the skin curve (wound/section.h does the cutting).
 /// @return nothing where the deepest point, either curve or the surface along the cut is missing
-[[nodiscard]] std::optional<SectionProfile> cutSection(const TexturedMesh& foot,
-                                                       const MeasuredWound& wound,
-                                                       const ViewFrame& view,
-                                                       const PictureOptions& options);
+[[nodiscard]] std::optional<SectionProfile> sectionForReport(const TexturedMesh& foot,
+                                                             const MeasuredWound& wound,
+                                                             const ViewFrame& view,
+                                                             const PictureOptions& options);
 
 }  // namespace tarsus

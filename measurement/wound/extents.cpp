@@ -38,7 +38,8 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-/// Length of the outline's section at right angles to `along`, through the point at `x` along it.
+/// Length of the outline's section at right angles to `along`, through the point at `x` along it:
+/// from edge to opposite edge, as a ruler is laid, also where a concave outline runs between.
 double section(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along, double x) {
   const Eigen::Vector2d across(-along.y(), along.x());
   double low = std::numeric_limits<double>::infinity();
@@ -57,6 +58,16 @@ double section(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d
     high = std::max(high, y);
   }
   return std::max(0.0, high - low);
+}
+
+/// The longest of the sections at right angles to `along`. Between two corners a section changes
+/// linearly, so one of those through a corner is the longest.
+double longestAcross(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along) {
+  double longest = 0.0;
+  for (const auto& p : points) {
+    longest = std::max(longest, section(points, along, p.dot(along)));
+  }
+  return longest;
 }
 
 }  // namespace
@@ -115,27 +126,16 @@ LengthWidth greatestChords(const FlatOutline& outline) {
       }
     }
   }
-  // Between two corners the section changes linearly, so a corner has the greatest.
-  for (const auto& p : outline.points) {
-    result.width_mm = std::max(result.width_mm, section(outline.points, along, p.dot(along)));
-  }
+  result.width_mm = longestAcross(outline.points, along);
   return result;
 }
 
-LengthWidth extentsAlong(const FlatOutline& outline, const Eigen::Vector3d& axis) {
+LengthWidth chordsAlong(const FlatOutline& outline, const Eigen::Vector3d& axis) {
   const Eigen::Vector2d along =
       Eigen::Vector2d(axis.dot(outline.right), axis.dot(outline.up)).normalized();
   const Eigen::Vector2d across(-along.y(), along.x());
-  const auto extent = [&](const Eigen::Vector2d& direction) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const auto& p : outline.points) {
-      low = std::min(low, p.dot(direction));
-      high = std::max(high, p.dot(direction));
-    }
-    return high - low;
-  };
-  return {extent(along), extent(across)};
+  return {.length_mm = longestAcross(outline.points, across),
+          .width_mm = longestAcross(outline.points, along)};
 }
 
 }  // namespace tarsus

@@ -24,10 +24,12 @@ struct LengthWidth {
   double length_mm = 0.0;
   double width_mm = 0.0;
 };
-/// Greatest chord, and greatest chord at right angles to it.
+/// Greatest chord, and greatest chord at right angles to it; chords run from edge to edge, also
+/// over what a concave outline leaves out.
 [[nodiscard]] LengthWidth greatestChords(const FlatOutline& outline);
-/// Full extents along an axis of the scan frame laid onto the plane, and across it.
+/// Longest chord parallel to an axis of the scan frame laid onto the plane, and longest chord at
+/// right angles to it. Not the outline's extents, which are greater where it lies slanted.
 /// @param axis  not upright on the plane
-[[nodiscard]] LengthWidth extentsAlong(const FlatOutline& outline, const Eigen::Vector3d& axis);
+[[nodiscard]] LengthWidth chordsAlong(const FlatOutline& outline, const Eigen::Vector3d& axis);
 
 }  // namespace tarsus

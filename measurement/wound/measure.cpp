@@ -230,6 +230,7 @@ class WoundMeasurer {
     for (const auto& foot : depths_.feet) {
       wound.bed_depth_mm.push_back(static_cast<float>(foot.depth_mm));
     }
+    wound.bed_unseen.assign(bed_.unseen.begin(), bed_.unseen.end());
     std::vector<Eigen::Vector2d> on_skin;
     for (const int v : bed_.curve) {
       on_skin.push_back(depths_.feet[v].uv);

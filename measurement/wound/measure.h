@@ -68,6 +68,7 @@ struct MeasuredWound {
   TriangleMesh bed;                            ///< M inside C, cut exactly
   std::vector<Rgb8> bed_colors;                ///< #V of bed, empty without colour
   std::vector<float> bed_depth_mm;             ///< #V below the reference skin along its normal
+  std::vector<float> bed_unseen;               ///< #V 1 where nothing was seen, 0 where it was
   TriangleMesh reference;                      ///< S inside C
   std::vector<Eigen::Vector3d> outline_mm;     ///< C as traced, closed
   std::vector<Eigen::Vector3d> skin_curve_mm;  ///< K as used, closed

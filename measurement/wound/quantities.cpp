@@ -94,7 +94,7 @@ Quantities quantitiesOf(const Bed& bed,
                {"length_mm", chords.length_mm},
                {"width_mm", chords.width_mm}};
   if (!whyNoClock(flat, landmarks)) {
-    const LengthWidth clock = extentsAlong(flat, landmarks->toe_mm - landmarks->heel_mm);
+    const LengthWidth clock = chordsAlong(flat, landmarks->toe_mm - landmarks->heel_mm);
     q["length_clock_mm"] = clock.length_mm;
     q["width_clock_mm"] = clock.width_mm;
   }

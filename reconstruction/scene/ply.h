@@ -4,6 +4,8 @@
 #include "reconstruction/scene/mesh.h"
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace tarsus {
 
@@ -13,10 +15,19 @@ namespace tarsus {
 /// @errors FileMissing, FileUnreadable, MeshInvalid (no faces, index out of range, not finite)
 [[nodiscard]] Expected<TexturedMesh> readPly(const std::filesystem::path& path);
 
+/// A quantity of the vertices that our own models do not carry, for other programs to show.
+struct VertexField {
+  std::string name;               ///< of the property: letters, digits, _
+  std::span<const float> values;  ///< #V
+};
+
 /// Writes model.ply as design.md fixes it: binary little endian, x y z nx ny nz red green blue,
 /// then sigma_mm, observations, unseen where the mesh has them. Atomic.
+/// @param fields  further properties, after the others
 /// @errors FileUnwritable, DiskFull
-[[nodiscard]] Expected<void> writePly(const std::filesystem::path& path, const TexturedMesh& mesh);
+[[nodiscard]] Expected<void> writePly(const std::filesystem::path& path,
+                                      const TexturedMesh& mesh,
+                                      std::span<const VertexField> fields = {});
 
 /// Reads a closed triangle mesh from Wavefront OBJ (polygons are fanned, texture ignored).
 /// @errors FileMissing, FileUnreadable, MeshInvalid

@@ -2,7 +2,9 @@
 #include "reconstruction/base/require.h"
 #include "reconstruction/scene/ply.h"
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstring>
 #include <string>
 
@@ -21,7 +23,7 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::string headerOf(const TexturedMesh& model) {
+std::string headerOf(const TexturedMesh& model, std::span<const VertexField> fields) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (const std::string& comment : model.comments) {
     header += "comment " + oneLine(comment) + '\n';
@@ -42,6 +44,9 @@ std::string headerOf(const TexturedMesh& model) {
   if (!model.unseen.empty()) {
     header += "property uchar unseen\n";
   }
+  for (const VertexField& field : fields) {
+    header += "property float " + field.name + '\n';
+  }
   header += "element face " + std::to_string(model.mesh.faces.size()) + '\n';
   return header + "property list uchar int vertex_indices\nend_header\n";
 }
@@ -59,7 +64,7 @@ void append3(std::string& bytes, const Eigen::Vector3f& v) {
   append(bytes, v.z());
 }
 
-void requireWhole(const TexturedMesh& model) {
+void requireWhole(const TexturedMesh& model, std::span<const VertexField> fields) {
   const std::size_t count = model.mesh.vertices.size();
   const auto whole = [count](const auto& values) {
     return values.empty() || values.size() == count;
@@ -67,19 +72,31 @@ void requireWhole(const TexturedMesh& model) {
   TARSUS_REQUIRE(whole(model.mesh.normals) && whole(model.colors) && whole(model.sigma_mm) &&
                      whole(model.observations) && whole(model.unseen),
                  "each quantity has one value for each vertex, or none at all");
+  for (const VertexField& field : fields) {
+    TARSUS_REQUIRE(field.values.size() == count && !field.name.empty() &&
+                       std::ranges::all_of(
+                           field.name,
+                           [](char c) {
+                             return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+                           }),
+                   "a field has a name and one value for each vertex");
+  }
 }
 
 }  // namespace
 
-Expected<void> writePly(const std::filesystem::path& path, const TexturedMesh& model) {
-  requireWhole(model);
+Expected<void> writePly(const std::filesystem::path& path,
+                        const TexturedMesh& model,
+                        std::span<const VertexField> fields) {
+  requireWhole(model, fields);
   const TriangleMesh& mesh = model.mesh;
   const auto computed = mesh.normals.empty() ? vertexNormals(mesh) : std::vector<Eigen::Vector3f>();
   const auto& normals = mesh.normals.empty() ? computed : mesh.normals;
-  std::string bytes = headerOf(model);
+  std::string bytes = headerOf(model, fields);
   constexpr std::size_t kMostVertexBytes = 34;
   constexpr std::size_t kFaceBytes = 13;
-  bytes.reserve(bytes.size() + kMostVertexBytes * mesh.vertices.size() +
+  const std::size_t vertex_bytes = kMostVertexBytes + sizeof(float) * fields.size();
+  bytes.reserve(bytes.size() + vertex_bytes * mesh.vertices.size() +
                 kFaceBytes * mesh.faces.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     append3(bytes, mesh.vertices[i]);
@@ -97,6 +114,9 @@ Expected<void> writePly(const std::filesystem::path& path, const TexturedMesh& m
     }
     if (!model.unseen.empty()) {
       append(bytes, model.unseen[i]);
+    }
+    for (const VertexField& field : fields) {
+      append(bytes, field.values[i]);
     }
   }
   for (const Eigen::Vector3i& face : mesh.faces) {

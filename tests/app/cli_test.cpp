@@ -291,6 +291,36 @@ TEST_F(Cli, BadScoreInputsAreRefused) {
   EXPECT_NE(cli(command).output.find("did you mean \"area_cm2\"?"), std::string::npos);
 }
 
+TEST_F(Cli, MeasureWritesTheDepthsOfTheBedAndASection) {
+  writeSquare(file("square.ply"));
+  writeText(file("outline.json"), "{\"points\":[[-5,-5,400],[-5,5,400],[5,5,400],[5,-5,400]]}");
+  const std::string measure = "measure " + file("square.ply") + " --outline " +
+                              file("outline.json") + " --artifacts " + file("out");
+  const CliRun run = cli(measure);
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  std::ifstream bed(file("out/bed.ply"));
+  const std::string header(std::istreambuf_iterator<char>(bed), {});
+  EXPECT_NE(header.find("property float depth_mm\nproperty float quality\n"), std::string::npos);
+  const auto lastRow = [&] {
+    std::ifstream section(file("out/section.csv"));
+    std::string row;
+    std::string last;
+    while (std::getline(section, row)) {
+      last = row;
+    }
+    return last;
+  };
+  // The greatest chord of the outline is a diagonal of 14.1 mm, with 8 mm beyond.
+  EXPECT_EQ(lastRow().substr(0, 9), "1,22.1421") << lastRow();
+  ASSERT_EQ(cli(measure + " --section=-15,1,400,12,1,400").exit_code, 0);
+  EXPECT_EQ(lastRow().substr(0, 9), "1,27.0000") << lastRow();
+  expectRefused(measure + " --section=-15,1,400,80,1,400", "bad_option");
+  EXPECT_EQ(cli("measure " + file("square.ply") + " --outline " + file("outline.json") +
+                " --section=-15,1,400,12,1,400")
+                .exit_code,
+            2);  // nowhere to write it
+}
+
 TEST_F(Cli, TissueFilesThatDoNotFitAreRefused) {
   writeSquare(file("square.ply"));
   writeText(file("outline.json"), "{\"points\":[[0,0,400],[10,0,400],[0,10,400]]}");

@@ -38,16 +38,60 @@ TEST(Extents, EllipseHasItsAxesAsLengthAndWidth) {
   EXPECT_NEAR(chords.width_mm, 12.0, 1e-3);
 }
 
-TEST(Extents, ClockFollowsTheHeelToeAxisAndNotTheLongestWay) {
+/// Longest chord of the ellipse along a direction at `turn` from its long axis: through its middle.
+double ellipseChord(double a, double b, double turn) {
+  return 2.0 / std::hypot(std::cos(turn) / a, std::sin(turn) / b);
+}
+
+TEST(Extents, ClockTakesTheLongestChordsAlongAndAcrossTheAxis) {
   const Eigen::Isometry3d pose = somePose();
   const FlatOutline flat = flatten(ellipse(10.0, 6.0, pose), pose.linear().col(2));
-  const double turn = pi / 6.0;
-  const Eigen::Vector3d axis =
-      pose.linear() * Eigen::Vector3d(std::cos(turn), std::sin(turn), 0.4);  // leaves the plane
-  const LengthWidth clock = extentsAlong(flat, axis);
-  // Extent of an ellipse along a direction: 2 sqrt(a^2 cos^2 + b^2 sin^2).
-  EXPECT_NEAR(clock.length_mm, 2.0 * std::hypot(10.0 * std::cos(turn), 6.0 * std::sin(turn)), 2e-3);
-  EXPECT_NEAR(clock.width_mm, 2.0 * std::hypot(10.0 * std::sin(turn), 6.0 * std::cos(turn)), 2e-3);
+  for (const double turn : {0.0, pi / 6.0, pi / 4.0, 1.2, pi / 2.0}) {
+    const Eigen::Vector3d axis =
+        pose.linear() * Eigen::Vector3d(std::cos(turn), std::sin(turn), 0.4);  // leaves the plane
+    const LengthWidth clock = chordsAlong(flat, axis);
+    // A 720-gon's chord is at most 4e-5 of it too short.
+    EXPECT_NEAR(clock.length_mm, ellipseChord(10.0, 6.0, turn), 1e-3) << turn;
+    EXPECT_NEAR(clock.width_mm, ellipseChord(10.0, 6.0, turn + pi / 2.0), 1e-3) << turn;
+  }
+}
+
+/// Half ring with radii `inner` and `outer` above the x axis.
+std::vector<Eigen::Vector3d> crescent(double inner, double outer) {
+  std::vector<Eigen::Vector3d> points;
+  constexpr int kSteps = 360;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = pi * i / kSteps;
+    points.emplace_back(outer * std::cos(t), outer * std::sin(t), 0.0);
+  }
+  for (int i = kSteps; i >= 0; --i) {
+    const double t = pi * i / kSteps;
+    points.emplace_back(inner * std::cos(t), inner * std::sin(t), 0.0);
+  }
+  return points;
+}
+
+TEST(Extents, ChordsOfACrescentRunFromEdgeToEdge) {
+  const FlatOutline flat = flatten(crescent(6.0, 10.0), Eigen::Vector3d::UnitZ());
+  const LengthWidth chords = greatestChords(flat);
+  EXPECT_NEAR(chords.length_mm, 20.0, 1e-9);  // from tip to tip, over the open side
+  EXPECT_NEAR(chords.width_mm, 8.0, 1e-3);    // at x = 6, where the inner arc meets the base
+  const LengthWidth upright = chordsAlong(flat, Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(upright.length_mm, 8.0, 1e-3);  // its extent is 10
+  EXPECT_NEAR(upright.width_mm, 20.0, 1e-9);
+}
+
+TEST(Extents, ClockOfASlantedStripIsShorterThanItsExtents) {
+  // 20 x 2 mm at 45 degrees: extents of 15.6 mm both ways, chords of 2 sqrt 2 mm.
+  const Eigen::Isometry3d pose(Eigen::AngleAxisd(pi / 4.0, Eigen::Vector3d::UnitZ()));
+  std::vector<Eigen::Vector3d> strip;
+  for (const auto& [x, y] : {std::pair{-10.0, -1.0}, {10.0, -1.0}, {10.0, 1.0}, {-10.0, 1.0}}) {
+    strip.emplace_back(pose * Eigen::Vector3d(x, y, 0.0));
+  }
+  const LengthWidth clock =
+      chordsAlong(flatten(strip, Eigen::Vector3d::UnitZ()), Eigen::Vector3d::UnitX());
+  EXPECT_NEAR(clock.length_mm, 2.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(clock.width_mm, 2.0 * std::sqrt(2.0), 1e-9);
 }
 
 TEST(Extents, WidthIsAChordNotAnExtent) {

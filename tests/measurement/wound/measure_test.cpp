@@ -291,12 +291,42 @@ TEST(MeasureWound, CountsUnseenBedAndHoldsVolumeBackAboveTenPerCent) {
   const auto part = measured(foot, outline);
   ASSERT_TRUE(part);
   EXPECT_NEAR(*part->numbers.unseen_bed_fraction, pi * 16.0 / *part->numbers.bed_area_mm2, 0.01);
+  ASSERT_EQ(part->bed_unseen.size(), part->bed.vertices.size());
+  for (std::size_t i = 0; i < part->bed.vertices.size(); ++i) {
+    const float from_middle = part->bed.vertices[i].head<2>().norm();
+    EXPECT_EQ(part->bed_unseen[i], from_middle < 4.0F ? 1.0F : 0.0F) << from_middle;
+  }
   EXPECT_EQ(*part->numbers.volume_mm3, *whole->numbers.volume_mm3);
   for (const char* name :
        {"volume_mm3", "volume_above_mm3", "mean_depth_mm", "max_depth_mm", "p99_depth_mm"}) {
     EXPECT_TRUE(part->numbers.not_measurable.contains(name)) << name;
   }
   EXPECT_FALSE(part->numbers.not_measurable.contains("opening_area_mm2"));
+}
+
+TEST(MeasureWound, UnseenBedIsAShareOfItsAreaAndNotOfItsVertices) {
+  // A wall 6 mm high over a ring 3 mm wide: the share counts the wall's own area, 78 % of the bed,
+  // not the 61 % that are seen of it from above. Up to 10 % the volume stays.
+  const test::Skin skin = test::planeSkin();
+  const test::Relief relief = test::crater(8.0, 6.0, 3.0);
+  auto foot = withQuality(test::woundMesh(skin, relief, {.half_size_mm = 22.0, .edge_mm = 0.5}));
+  const auto outline = test::circleOn(skin, relief, 8.0, kPoints);
+  const auto share = [&](double from_mm, double to_mm) {
+    for (std::size_t i = 0; i < foot.mesh.vertices.size(); ++i) {
+      const auto r = static_cast<double>(foot.mesh.vertices[i].head<2>().norm());
+      foot.unseen[i] = r > from_mm && r < to_mm ? 1 : 0;
+    }
+    const auto result = measured(foot, outline);
+    EXPECT_TRUE(result) << describe(result.error());
+    const double unseen = *result->numbers.unseen_bed_fraction;
+    EXPECT_EQ(result->numbers.not_measurable.contains("volume_mm3"), unseen > 0.1) << unseen;
+    return unseen;
+  };
+  const double bed_mm2 = test::truthInside(skin, relief, 8.0).bed_mm2;
+  const double wall_mm2 = pi * 13.0 * std::hypot(3.0, 6.0);  // of a cone between radii 5 and 8
+  // Faces with corners on both sides count in part: up to a quarter edge along each end.
+  EXPECT_NEAR(share(5.0, 8.0), wall_mm2 / bed_mm2, 0.07);
+  EXPECT_NEAR(share(-1.0, 2.9), pi * 2.9 * 2.9 / bed_mm2, 0.01);  // 7.5 %
 }
 
 TEST(MeasureWound, ClosesHolesInTheBedAndCountsThemAsUnseen) {
@@ -312,6 +342,13 @@ TEST(MeasureWound, ClosesHolesInTheBedAndCountsThemAsUnseen) {
   const auto holed = measured(foot, outline);
   ASSERT_TRUE(whole && holed) << describe(holed.error());
   EXPECT_NEAR(*holed->numbers.unseen_bed_fraction, pi * 4.0 / *whole->numbers.bed_area_mm2, 0.02);
+  ASSERT_EQ(holed->bed_unseen.size(), holed->bed.vertices.size());
+  for (std::size_t i = 0; i < holed->bed.vertices.size(); ++i) {
+    const float from_middle = holed->bed.vertices[i].head<2>().norm();
+    if (from_middle < 1.2F || from_middle > 3.0F) {  // between lies the ragged edge of the hole
+      EXPECT_EQ(holed->bed_unseen[i], from_middle < 2.0F ? 1.0F : 0.0F) << from_middle;
+    }
+  }
   // On a flat bottom the membrane is the bottom.
   EXPECT_NEAR(
       *holed->numbers.volume_mm3, *whole->numbers.volume_mm3, 1e-3 * *whole->numbers.volume_mm3);

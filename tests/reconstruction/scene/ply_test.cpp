@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <numeric>
 #include <stdexcept>
 
 namespace tarsus {
@@ -90,6 +91,33 @@ TEST_F(Ply, WhatAModelLacksIsNotWrittenButNormalsAre) {
   EXPECT_TRUE(read->observations.empty());
   EXPECT_TRUE(read->unseen.empty());
   EXPECT_EQ(read->mesh.normals, vertexNormals(model.mesh));
+}
+
+TEST_F(Ply, FurtherFieldsStandBehindTheVerticesOwn) {
+  const TexturedMesh model = makeModel(makeCube(10.0));
+  std::vector<float> depth_mm(model.mesh.vertices.size());
+  std::iota(depth_mm.begin(), depth_mm.end(), -1.5F);
+  const std::vector<VertexField> fields{{"depth_mm", depth_mm}, {"quality", depth_mm}};
+  const auto path = folder_.path() / "model.ply";
+  ASSERT_TRUE(writePly(path, model, fields));
+  const std::string bytes = readTextFile(path).value();
+  EXPECT_NE(bytes.find("property uchar unseen\nproperty float depth_mm\nproperty float quality\n"
+                       "element face"),
+            std::string::npos);
+  // Our own reader passes them over and keeps everything else.
+  const auto read = readPly(path);
+  ASSERT_TRUE(read) << describe(read.error());
+  EXPECT_EQ(read->mesh.vertices, model.mesh.vertices);
+  EXPECT_EQ(read->unseen, model.unseen);
+  // The last value of the first vertex: before the 34 bytes and two fields of the second.
+  float last = 0.0F;
+  const std::size_t begin = bytes.find("end_header\n") + 11;
+  std::memcpy(&last, bytes.data() + begin + 34 + 4, sizeof last);
+  EXPECT_EQ(last, -1.5F);
+  std::memcpy(&last, bytes.data() + begin + 42 + 34, sizeof last);
+  EXPECT_EQ(last, -0.5F);
+  const std::vector<VertexField> unfit{{"depth_mm", std::span(depth_mm).first(2)}};
+  EXPECT_THROW(static_cast<void>(writePly(path, model, unfit)), std::logic_error);
 }
 
 TEST_F(Ply, ACommentCannotEndTheHeader) {
