@@ -248,7 +248,11 @@ bool followClosely(const PatchLook& look,
                    SkinEvidence& evidence) {
   const RingFrame frame = frameOf(look, ring);
   const std::vector<int> samples = samplesOf(look, ring, frame.axes.col(2));
-  const auto skin = smoothSkin(look, frame, samples, outside_mm, {.departure_mm = 1.0});
+  ReferenceSkinOptions close;
+  close.annulus_mm = 8.0;
+  close.departures_mm = {1.0};
+  close.departure_lengths_mm = {10.0};
+  const auto skin = smoothSkin(look, frame, samples, outside_mm, close);
   if (!skin) {
     return false;
   }
