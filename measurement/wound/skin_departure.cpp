@@ -1,12 +1,13 @@
 #include "measurement/wound/skin_departure.h"
 
+#include "measurement/wound/matern.h"
 #include "reconstruction/base/parallel.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 
 namespace tarsus {
 namespace {
@@ -17,11 +18,6 @@ const SkinDeparture::Parameters kPrior =
     (SkinDeparture::Parameters() << 1e-2, 1e-2, 1e-2, 1e-12, 1e-6, 1e-6).finished();
 /// Amplitudes with less of the evidence than this are dropped.
 constexpr double kLeastWeight = 1e-4;
-/// The Matern 5/2 correlation.
-double matern(double distance_mm, double length_mm) {
-  const double x = std::sqrt(5.0) * distance_mm / length_mm;
-  return (1.0 + x + x * x / 3.0) * std::exp(-x);
-}
 
 constexpr double kNode_mm = 1.5;  ///< of the table; a tenth of the correlation length
 
@@ -31,35 +27,36 @@ SkinDeparture::Candidate SkinDeparture::solve(const Eigen::MatrixXd& alike,
                                               const DepartureKind& kind) const {
   Candidate c;
   c.kind = kind;
-  const double variance = kind.amplitude_mm * kind.amplitude_mm;
-  Eigen::MatrixXd covariance = variance * alike;
-  covariance.diagonal() += cells_.precision.cwiseInverse();
-  c.covariance.compute(covariance);
-  c.weighed_base = c.covariance.solve(cells_.base);
-  Eigen::Matrix<double, 6, 6> information = cells_.base.transpose() * c.weighed_base;
+  c.root = kind.amplitude_mm * kind.amplitude_mm * alike;
+  c.root.diagonal() += cells_.precision.cwiseInverse();
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(c.root);
+  const auto root = c.root.triangularView<Eigen::Lower>();
+  Eigen::Matrix<double, Eigen::Dynamic, 7> known(cells_.count(), 7);
+  known << cells_.base, cells_.value_mm;
+  root.solveInPlace(known);
+  c.base = known.leftCols<6>();
+  Eigen::Matrix<double, 6, 6> information = c.base.transpose() * c.base;
   information.diagonal() += kPrior;
   c.information.compute(information);
-  c.parameters = c.information.solve(c.weighed_base.transpose() * cells_.value_mm);
-  const Eigen::VectorXd rest = cells_.value_mm - cells_.base * c.parameters;
-  const Eigen::VectorXd pull = c.covariance.solve(rest);
-  c.pull = variance * cells_.cosine.cwiseProduct(pull);
-  c.log_evidence = -0.5 * rest.dot(pull) - c.covariance.matrixLLT().diagonal().array().log().sum() -
+  c.parameters = c.information.solve(c.base.transpose() * known.col(6));
+  c.rest = known.col(6) - c.base * c.parameters;
+  c.log_evidence = -0.5 * c.rest.squaredNorm() - c.root.diagonal().array().log().sum() -
                    0.5 * c.information.vectorD().array().log().sum();
   return c;
 }
 
 /// #cells x #cells correlation of the departures along the normals.
 Eigen::MatrixXd SkinDeparture::alikeness(double length_mm) const {
-  const Eigen::Index count = cells_.count();
-  Eigen::MatrixXd alike(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    for (Eigen::Index i = 0; i <= j; ++i) {
-      alike(i, j) = cells_.cosine[i] * cells_.cosine[j] *
-                    matern((cells_.uv.col(i) - cells_.uv.col(j)).norm(), length_mm);
-      alike(j, i) = alike(i, j);
-    }
+  return cells_.cosine.asDiagonal() * across(cells_.uv, length_mm) * cells_.cosine.asDiagonal();
+}
+
+Eigen::MatrixXd SkinDeparture::across(const Eigen::Matrix2Xd& uv, double length_mm) const {
+  const Eigen::ArrayX2d cells = cells_.uv.transpose();
+  Eigen::MatrixXd result(cells_.count(), uv.cols());
+  for (Eigen::Index j = 0; j < uv.cols(); ++j) {
+    matern(uv.col(j), cells, length_mm, result.col(j));
   }
-  return alike;
+  return result;
 }
 
 SkinDeparture::SkinDeparture(SkinCells cells, std::span<const DepartureKind> kinds)
@@ -87,17 +84,23 @@ SkinDeparture::SkinDeparture(SkinCells cells, std::span<const DepartureKind> kin
   for (Candidate& c : candidates_) {
     c.weight /= sum;
     parameters_ += c.weight * c.parameters;
+    const Eigen::VectorXd pull = c.root.triangularView<Eigen::Lower>().adjoint().solve(c.rest);
+    auto& sum_of_pulls = pull_by_length_[c.kind.length_mm];
+    if (sum_of_pulls.size() == 0) {
+      sum_of_pulls.setZero(cells_.count());
+    }
+    sum_of_pulls +=
+        c.weight * c.kind.amplitude_mm * c.kind.amplitude_mm * cells_.cosine.cwiseProduct(pull);
   }
 }
 
 double SkinDeparture::at(const Eigen::Vector2d& uv) const {
+  const Eigen::ArrayX2d cells = cells_.uv.transpose();
+  Eigen::VectorXd alike(cells_.count());
   double height = 0.0;
-  for (const Candidate& c : candidates_) {
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < cells_.count(); ++i) {
-      sum += c.pull[i] * matern((cells_.uv.col(i) - uv).norm(), c.kind.length_mm);
-    }
-    height += c.weight * sum;
+  for (const auto& [length_mm, pull] : pull_by_length_) {
+    matern(uv, cells, length_mm, alike);
+    height += pull.dot(alike);
   }
   return height;
 }
@@ -116,24 +119,19 @@ Eigen::MatrixXd SkinDeparture::covariance(
   std::vector<Eigen::VectorXd> heights;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(places);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(places, places);
+  const Eigen::ArrayX2d all = uv.transpose();
+  Eigen::MatrixXd among(places, places);
   for (const Candidate& c : candidates_) {
-    Eigen::MatrixXd among(places, places);
-    Eigen::MatrixXd across(cells_.count(), places);
     for (Eigen::Index j = 0; j < places; ++j) {
-      for (Eigen::Index i = 0; i < places; ++i) {
-        among(i, j) = matern((uv.col(i) - uv.col(j)).norm(), c.kind.length_mm);
-      }
-      for (Eigen::Index i = 0; i < cells_.count(); ++i) {
-        across(i, j) = matern((cells_.uv.col(i) - uv.col(j)).norm(), c.kind.length_mm);
-      }
+      matern(uv.col(j), all, c.kind.length_mm, among.col(j));
     }
-    heights.emplace_back(base * c.parameters + across.transpose() * c.pull);
-    mean += c.weight * heights.back();
     const double variance = c.kind.amplitude_mm * c.kind.amplitude_mm;
-    across = cells_.cosine.asDiagonal() * across;
-    const Eigen::MatrixXd tilt = base - variance * across.transpose() * c.weighed_base;
-    const Eigen::MatrixXd known = c.covariance.matrixL().solve(across);
-    result += c.weight * (variance * among - variance * variance * known.transpose() * known +
+    const Eigen::MatrixXd known = c.root.triangularView<Eigen::Lower>().solve(
+        variance * cells_.cosine.asDiagonal() * across(uv, c.kind.length_mm));
+    const Eigen::MatrixXd tilt = base - known.transpose() * c.base;
+    heights.emplace_back(base * c.parameters + known.transpose() * c.rest);
+    mean += c.weight * heights.back();
+    result += c.weight * (variance * among - known.transpose() * known +
                           tilt * c.information.solve(tilt.transpose()));
   }
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -143,19 +141,50 @@ Eigen::MatrixXd SkinDeparture::covariance(
   return result;
 }
 
-DepartureTable::DepartureTable(const SkinDeparture& departure,
+DepartureTable::DepartureTable(std::shared_ptr<const SkinDeparture> departure,
                                const Eigen::Vector2d& low_mm,
                                const Eigen::Vector2d& high_mm)
-    : low_mm_(low_mm) {
+    : departure_(std::move(departure)), low_mm_(low_mm) {
   const Eigen::Vector2d size = (high_mm - low_mm) / kNode_mm;
   const auto nodes = [](double cells) { return static_cast<Eigen::Index>(std::ceil(cells)) + 3; };
-  heights_.resize(nodes(size.x()), nodes(size.y()));
+  heights_.setConstant(nodes(size.x()), nodes(size.y()), std::numeric_limits<double>::quiet_NaN());
+}
+
+void DepartureTable::fill() { fillWhere(Needed::Constant(heights_.rows(), heights_.cols(), true)); }
+
+void DepartureTable::fillUnder(const Eigen::Matrix2Xd& uv) {
+  if (heights_.size() == 0) {
+    return;
+  }
+  Needed needed = Needed::Constant(heights_.rows(), heights_.cols(), false);
+  for (Eigen::Index k = 0; k < uv.cols(); ++k) {
+    const Eigen::Vector2i cell = locate(uv.col(k)).cell;
+    needed.block<4, 4>(cell.x(), cell.y()) = true;
+  }
+  fillWhere(needed);
+}
+
+void DepartureTable::fillWhere(const Needed& needed) {
   parallelFor(static_cast<int>(heights_.cols()), [&](int j) {
     for (Eigen::Index i = 0; i < heights_.rows(); ++i) {
-      heights_(i, j) =
-          departure.at(low_mm_ + kNode_mm * Eigen::Vector2d(static_cast<double>(i) - 1.0, j - 1.0));
+      if (needed(i, j) && std::isnan(heights_(i, j))) {
+        heights_(i, j) = departure_->at(
+            low_mm_ + kNode_mm * Eigen::Vector2d(static_cast<double>(i) - 1.0, j - 1.0));
+      }
     }
   });
+}
+
+DepartureTable::Place DepartureTable::locate(const Eigen::Vector2d& uv) const {
+  Place place;
+  for (int k = 0; k < 2; ++k) {
+    const auto cells = static_cast<double>((k == 0 ? heights_.rows() : heights_.cols()) - 3);
+    const double x = std::min(std::max(0.0, (uv[k] - low_mm_[k]) / kNode_mm), cells);
+    const double cell = std::min(std::floor(x), cells - 1.0);
+    place.cell[k] = static_cast<int>(cell);
+    place.inside[k] = x - cell;
+  }
+  return place;
 }
 
 namespace {
@@ -184,18 +213,10 @@ DepartureTable::Shape DepartureTable::at(const Eigen::Vector2d& uv) const {
   if (heights_.size() == 0) {
     return {};
   }
-  const auto locate = [](double x, Eigen::Index nodes) {
-    const double cells = static_cast<double>(nodes - 3);
-    const double inside = std::clamp(x, 0.0, cells);
-    const double cell = std::min(std::floor(inside), cells - 1.0);
-    return std::pair(static_cast<Eigen::Index>(cell), inside - cell);
-  };
-  const Eigen::Vector2d x = (uv - low_mm_) / kNode_mm;
-  const auto [i, s] = locate(x.x(), heights_.rows());
-  const auto [j, t] = locate(x.y(), heights_.cols());
-  const CubicWeights u = cubicWeights(s);
-  const CubicWeights v = cubicWeights(t);
-  const Eigen::Matrix4d h = heights_.block<4, 4>(i, j);
+  const Place place = locate(uv);
+  const CubicWeights u = cubicWeights(place.inside.x());
+  const CubicWeights v = cubicWeights(place.inside.y());
+  const Eigen::Matrix4d h = heights_.block<4, 4>(place.cell.x(), place.cell.y());
   Shape shape;
   shape.height = u.value.dot(h * v.value);
   shape.gradient = Eigen::Vector2d(u.first.dot(h * v.value), u.value.dot(h * v.first)) / kNode_mm;

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -54,39 +56,59 @@ class SkinDeparture {
  private:
   struct Candidate {
     DepartureKind kind;
-    double weight = 0.0;  ///< its share of the evidence
-    Eigen::LLT<Eigen::MatrixXd> covariance;
-    Eigen::Matrix<double, Eigen::Dynamic, 6> weighed_base;  ///< covariance^-1 base
-    Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information;   ///< of the parameters
+    double weight = 0.0;   ///< its share of the evidence
+    Eigen::MatrixXd root;  ///< n x n lower Cholesky factor of the cells' covariance
+    Eigen::Matrix<double, Eigen::Dynamic, 6> base;         ///< root^-1 base
+    Eigen::LDLT<Eigen::Matrix<double, 6, 6>> information;  ///< of the parameters
     Parameters parameters = Parameters::Zero();
-    Eigen::VectorXd pull;  ///< n, departure = sum of pull times correlation
+    Eigen::VectorXd rest;  ///< n root^-1 (values - base * parameters)
     double log_evidence = 0.0;
   };
   [[nodiscard]] Candidate solve(const Eigen::MatrixXd& alike, const DepartureKind& kind) const;
   [[nodiscard]] Eigen::MatrixXd alikeness(double length_mm) const;
+  /// #cells x #places correlation of the cells' departures with those at the places.
+  [[nodiscard]] Eigen::MatrixXd across(const Eigen::Matrix2Xd& uv, double length_mm) const;
 
   SkinCells cells_;
   std::vector<Candidate> candidates_;
+  /// n, departure = sum over the lengths of pull times correlation.
+  std::map<double, Eigen::VectorXd> pull_by_length_;
   Parameters parameters_ = Parameters::Zero();
 };
 
 /// The departure tabulated, so that feet of normals cost little: cubic convolution (Keys 1981).
+/// Nodes are costly, so that they are filled where they are needed.
 class DepartureTable {
  public:
   DepartureTable() = default;
-  /// Spans the box [low, high] of the tangent plane; constant outside.
-  DepartureTable(const SkinDeparture& departure,
+  /// Spans the box [low, high] of the tangent plane; constant outside. Nothing is filled yet.
+  DepartureTable(std::shared_ptr<const SkinDeparture> departure,
                  const Eigen::Vector2d& low_mm,
                  const Eigen::Vector2d& high_mm);
+
+  /// Makes `at` good at these places, or everywhere.
+  void fillUnder(const Eigen::Matrix2Xd& uv);
+  void fill();
 
   struct Shape {
     double height = 0.0;
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
   };
+  /// Not a number where nothing was filled; 0 everywhere where nothing was tabulated.
   [[nodiscard]] Shape at(const Eigen::Vector2d& uv) const;
 
  private:
+  using Needed = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+  /// The cell that holds the place, and where in it, 0 to 1.
+  struct Place {
+    Eigen::Vector2i cell;
+    Eigen::Vector2d inside;
+  };
+  [[nodiscard]] Place locate(const Eigen::Vector2d& uv) const;
+  void fillWhere(const Needed& needed);
+
+  std::shared_ptr<const SkinDeparture> departure_;
   Eigen::Vector2d low_mm_ = Eigen::Vector2d::Zero();
   Eigen::MatrixXd heights_;  ///< one node beyond the box on each side
 };

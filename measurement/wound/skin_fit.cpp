@@ -58,12 +58,18 @@ class SkinFitter {
       return skin;
     }
     const double reach_mm = reachFor(skin->departure_mm(), options_);
-    return reach_mm < options_.annulus_mm ? fitWithin(reach_mm, middle_mm) : skin;
+    if (reach_mm < options_.annulus_mm) {
+      skin = fitWithin(reach_mm, middle_mm);
+    }
+    if (skin) {
+      skin->table_.fill();
+    }
+    return skin;
   }
 
  private:
-  /// The whole fit: first the shape and the frame in which it stands upright, then outliers, then
-  /// the kinds of departure.
+  /// The fit with its table yet to be filled: first the shape and the frame in which it stands
+  /// upright, then outliers, then the kinds of departure.
   Expected<ReferenceSkin> fitWithin(double reach_mm, const Eigen::Vector3d& middle_mm) {
     reach_mm_ = reach_mm;
     skin_ = {};
@@ -108,6 +114,7 @@ class SkinFitter {
       for (int step = 0; step < 2; ++step) {
         fit(false, kMiddling);
       }
+      skin_.table_.fillUnder(Eigen::Vector2d::Zero());
       const auto middle = skin_.shapeAt(Eigen::Vector2d::Zero());
       if (!std::isfinite(middle.height) || !middle.gradient.allFinite()) {
         return "the fit did not come to an end";
@@ -161,8 +168,13 @@ class SkinFitter {
   /// Distances along the normal. Derivatives are taken at the foot, not below the sample: on a
   /// slope noise moves a sample sideways as well, and regressing on that place would flatten the
   /// skin (0.03 mm at 0.2 mm noise on a sphere of 30 mm).
-  [[nodiscard]] std::vector<Residual> residuals() const {
+  [[nodiscard]] std::vector<Residual> residuals() {
     constexpr double kFarthest_mm = 1.0;  // beyond it, the first-order foot is not one
+    Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(local_.size()));
+    for (std::size_t i = 0; i < local_.size(); ++i) {
+      places.col(static_cast<Eigen::Index>(i)) = local_[i].p.head<2>();
+    }
+    skin_.table_.fillUnder(places);
     std::vector<Residual> all;
     all.reserve(local_.size());
     for (const Local& s : local_) {
@@ -174,8 +186,10 @@ class SkinFitter {
       r.along_normal_mm = rise * r.cosine;
       r.foot = s.p.head<2>() +
                std::clamp(rise, -kFarthest_mm, kFarthest_mm) / steepness * shape.gradient;
+      places.col(static_cast<Eigen::Index>(all.size())) = r.foot;
       all.push_back(r);
     }
+    skin_.table_.fillUnder(places);
     return all;
   }
 
@@ -267,7 +281,7 @@ class SkinFitter {
     const SkinDeparture::Parameters& p = skin_.departure_->parameters();
     skin_.curvature_ += (Eigen::Matrix2d() << p[0], p[1], p[1], p[2]).finished();
     skin_.plane_ = p.tail<3>();
-    skin_.table_ = DepartureTable(*skin_.departure_, low, high);
+    skin_.table_ = DepartureTable(skin_.departure_, low, high);
   }
 
   /// What is assumed before the kinds are weighed.
