@@ -106,8 +106,9 @@ OutlinePiece tracePiece(GrowingPatch& local, const SurfacePoint& from, const Sur
     }
     const auto path = shortestPath(patch, start, end);
     const Eigen::Vector3d start_mm = positionOf(patch, start);
-    const double length_mm = path ? path->searched_mm : patch.clear_radius_mm;
-    if (!local.whole() && mayLeave(patch, start_mm, positionOf(patch, end), length_mm)) {
+    const bool settled =
+        path && !mayLeave(patch, start_mm, positionOf(patch, end), path->searched_mm);
+    if (!local.whole() && !settled) {
       local.grow();
       continue;
     }
