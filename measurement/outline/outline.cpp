@@ -26,7 +26,8 @@ struct Snapped {
 Expected<Snapped> snap(const TriangleMesh& mesh,
                        const MeshIndex& index,
                        std::span<const Eigen::Vector3d> points_mm,
-                       double max_distance_mm) {
+                       double max_distance_mm,
+                       bool along_skin) {
   constexpr double kAnyDistance_mm = 1e5;
   Snapped snapped;
   std::vector<MeshIndex::NearestPoint> places;
@@ -45,7 +46,9 @@ Expected<Snapped> snap(const TriangleMesh& mesh,
     }
     places.push_back(*nearest);
   }
-  carryAlongSkin(mesh, index, points_mm, places);
+  if (along_skin) {
+    carryAlongSkin(mesh, index, points_mm, places);
+  }
   for (const auto& place : places) {
     snapped.points.push_back(place.point);
     snapped.positions.push_back(place.position_mm);
@@ -68,17 +71,12 @@ int differentPlaces(const std::vector<Eigen::Vector3d>& positions) {
   return static_cast<int>(places.size());
 }
 
-}  // namespace
-
-Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
-                                    const MeshIndex& index,
-                                    std::span<const Eigen::Vector3d> points_mm,
-                                    const OutlineOptions& options) {
-  if (points_mm.size() < 3) {
-    return fail(ErrorCode::OutlineInvalid,
-                std::to_string(points_mm.size()) + " points given; at least 3 are needed");
-  }
-  const auto snapped = snap(foot.mesh, index, points_mm, options.max_snap_distance_mm);
+Expected<WoundOutline> traceFrom(const TexturedMesh& foot,
+                                 const MeshIndex& index,
+                                 std::span<const Eigen::Vector3d> points_mm,
+                                 double max_distance_mm,
+                                 bool along_skin) {
+  const auto snapped = snap(foot.mesh, index, points_mm, max_distance_mm, along_skin);
   if (!snapped) {
     return tl::unexpected(snapped.error());
   }
@@ -108,6 +106,24 @@ Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
   traced->outline.mesh_sha256 = foot.sha256;
   traced->outline.clicks = snapped->points;
   return std::move(traced->outline);
+}
+
+}  // namespace
+
+Expected<WoundOutline> traceOutline(const TexturedMesh& foot,
+                                    const MeshIndex& index,
+                                    std::span<const Eigen::Vector3d> points_mm,
+                                    const OutlineOptions& options) {
+  if (points_mm.size() < 3) {
+    return fail(ErrorCode::OutlineInvalid,
+                std::to_string(points_mm.size()) + " points given; at least 3 are needed");
+  }
+  auto traced = traceFrom(foot, index, points_mm, options.max_snap_distance_mm, true);
+  if (!traced && traced.error().code == ErrorCode::OutlineSelfIntersects) {
+    // On rough walls neighbours may be carried past each other; the nearest places keep order.
+    return traceFrom(foot, index, points_mm, options.max_snap_distance_mm, false);
+  }
+  return traced;
 }
 
 }  // namespace tarsus

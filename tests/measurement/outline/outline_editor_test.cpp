@@ -82,7 +82,11 @@ TEST(OutlineEditor, GivesTheBitsOfTraceOutline) {
         test::sphereSkin(30.0),
         {.half_size_mm = 40.0, .seed = static_cast<std::uint64_t>(seed), .noise_mm = 0.2},
         test::crater(6.0, 3.0, 1.0));
-    const auto places = scene.circle(4.0 + 2.0 * seed, 9);
+    // Clicks lie on the surface; what does not, traceOutline carries along the skin's normal.
+    std::vector<Eigen::Vector3d> places;
+    for (const Eigen::Vector3d& p : scene.circle(4.0 + 2.0 * seed, 9)) {
+      places.push_back(scene.index->nearest(p, 5.0)->position_mm);
+    }
     const auto traced = traceOutline(*scene.foot, *scene.index, places);
     ASSERT_TRUE(traced);
     const OutlineEditor editor = scene.drawn(places);

@@ -38,6 +38,7 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::TissueInvalid:
     case ErrorCode::ScoreInputInvalid:
     case ErrorCode::NoSuggestion:
+    case ErrorCode::PhantomNotFound:
     case ErrorCode::FontMissing:
       return true;
   }

@@ -59,10 +59,10 @@ TEST_F(ObjectScene, ShowsTheUpperSideToTheCameraAndLiesOnTheTable) {
   EXPECT_TRUE((*scene)->wounds.empty());
   ASSERT_EQ((*scene)->foot.mesh.vertices.size(), 8U);
   const auto& vertices = (*scene)->foot.mesh.vertices;
-  EXPECT_NEAR(static_cast<double>((vertices[5] - vertices[1]).norm()), 40.0, 1e-3);
-  // The same handedness: (1 - 0) x (3 - 0) points up, as before.
+  EXPECT_NEAR(static_cast<double>((vertices[5] - vertices[2]).norm()), 40.0, 1e-3);
+  // An STL numbers corners as its faces name them: 0, 2, 1, 3. The same handedness as before.
   const Eigen::Vector3f up = vertices[4] - vertices[0];
-  EXPECT_GT((vertices[1] - vertices[0]).cross(vertices[3] - vertices[0]).dot(up), 0.0F);
+  EXPECT_GT((vertices[2] - vertices[0]).cross(vertices[3] - vertices[0]).dot(up), 0.0F);
   // Whatever the first camera sees of the table lies in the plane of the base.
   const Eigen::Vector3f normal = up.normalized();
   for (const auto& p : (*scene)->surroundings.mesh.vertices) {
