@@ -35,13 +35,17 @@ Eigen::Isometry3d frameAt(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
   return frame;
 }
 
+double nearReach(const ReferenceSkinOptions& options) {
+  return std::min(options.annulus_mm, options.near_mm);
+}
+
 /// Far on even skin, near on uneven, evenly (in the logarithm) between.
 double reachFor(double departure_mm, const ReferenceSkinOptions& options) {
   constexpr double kEven_mm = 0.1;
   constexpr double kUneven_mm = 0.5;
   const double t =
       std::clamp(std::log(departure_mm / kEven_mm) / std::log(kUneven_mm / kEven_mm), 0.0, 1.0);
-  return (1.0 - t) * options.annulus_mm + t * std::min(options.annulus_mm, options.near_mm);
+  return (1.0 - t) * options.annulus_mm + t * nearReach(options);
 }
 
 }  // namespace
@@ -54,10 +58,8 @@ class SkinFitter {
   Expected<ReferenceSkin> run(const Eigen::Vector3d& middle_mm) {
     // The more the skin departs from a biconic, the less what is far says about the wound's.
     auto skin = fitWithin(options_.annulus_mm, middle_mm);
-    if (!skin) {
-      return skin;
-    }
-    const double reach_mm = reachFor(skin->departure_mm(), options_);
+    // Far skin may lie all around a toe, so that no plane bears it; then near skin alone.
+    const double reach_mm = skin ? reachFor(skin->departure_mm(), options_) : nearReach(options_);
     if (reach_mm < options_.annulus_mm) {
       skin = fitWithin(reach_mm, middle_mm);
     }

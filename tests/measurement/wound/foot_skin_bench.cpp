@@ -1,158 +1,211 @@
 #include "tests/measurement/wound/foot_skin_bench.h"
 
-#include "measurement/outline/surface_patch.h"
-#include "measurement/wound/reference_skin.h"
-#include "reconstruction/scene/ply.h"
-#include "tests/measurement/outline/wound_surface.h"
+#include "reconstruction/capture/simulator/carving.h"
+#include "reconstruction/capture/simulator/intact_foot.h"
+#include "reconstruction/capture/simulator/ulcer_designs.h"
+#include "tests/measurement/wound/foot_places.h"
+#include "tests/measurement/wound/skin_candidates.h"
+#include "tests/measurement/wound/spread.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace tarsus::test {
 namespace {
 
-struct Place {
-  std::vector<SkinSample> around;
-  std::vector<Eigen::Vector3d> inside;  ///< the true skin where a wound would be
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+/// One way to look at all places; the middle one unless told.
+struct View {
+  std::string name;
+  double radius_mm = 10.0;
+  double noise_mm = 0.2;
+  double skin_curve_mm = 2.0;
 };
 
-/// Healthy skin around and under a round wound at a vertex; nothing between toes or at the ankle.
-std::optional<Place> placeAt(const TriangleMesh& foot,
-                             int vertex,
-                             double radius_mm,
-                             double annulus_mm) {
-  const Eigen::Vector3d middle = foot.vertices[vertex].cast<double>();
-  const Eigen::Vector3d up = foot.normals[vertex].cast<double>();
-  const SurfacePatch patch = extractPatch(foot, middle, radius_mm + 2.0 + annulus_mm);
-  Place place{.around = {}, .inside = {}, .middle = middle};
-  std::vector<char> seen(patch.vertices.size(), 0);
-  const auto start = std::find(patch.mesh_vertex.begin(), patch.mesh_vertex.end(), vertex);
-  std::vector<int> open{static_cast<int>(start - patch.mesh_vertex.begin())};
-  seen[open.front()] = 1;
-  while (!open.empty()) {
-    const int v = open.back();
-    open.pop_back();
-    const Eigen::Vector3d n = foot.normals[patch.mesh_vertex[v]].cast<double>();
-    const double r = (patch.vertices[v] - middle).norm();
-    if (r < radius_mm + 4.0 && n.dot(up) < 0.4) {
-      return std::nullopt;
-    }
-    double area = 0.0;
-    for (const int face : patch.starOf(v)) {
-      const auto& f = patch.faces[face];
-      area += (patch.vertices[f[1]] - patch.vertices[f[0]])
-                  .cross(patch.vertices[f[2]] - patch.vertices[f[0]])
-                  .norm() /
-              6.0;
-      for (const int w : f) {
-        if (seen[w] == 0) {
-          seen[w] = 1;
-          open.push_back(w);
-        }
+/// Misses of each candidate, and what the default claims.
+struct Misses {
+  std::vector<Spread> of_candidate;
+  Spread claimed;
+  int within = 0;  ///< places where the default misses by less than 1.96 of what it claims
+
+  void add(const FootPlace& place, const std::vector<SkinCandidate>& candidates) {
+    of_candidate.resize(candidates.size());
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const FittedSkin skin = candidates[k].fit(place.around, place.middle);
+      double miss = 0.0;
+      for (std::size_t i = 0; i < place.inside.size(); ++i) {
+        miss += skin.miss_mm(place.inside[i], place.inside_normals[i]) /
+                static_cast<double>(place.inside.size());
+      }
+      of_candidate[k].add(miss);
+      if (skin.claimed_sd_mm) {
+        claimed.add(skin.claimed_sd_mm(few(place.inside)));
+        within += std::abs(miss) < 1.96 * claimed.last() ? 1 : 0;
       }
     }
-    if (r < radius_mm) {
-      place.inside.push_back(patch.vertices[v]);
-    } else if (r >= radius_mm + 2.0 && r <= radius_mm + 2.0 + annulus_mm) {
-      place.around.push_back({.position_mm = patch.vertices[v],
-                              .normal = n,
-                              .area_mm2 = area,
-                              .sigma_mm = 0.2,
-                              .outside_mm = r - radius_mm - 2.0});
+  }
+  [[nodiscard]] double within_percent() const {
+    return 100.0 * within / static_cast<double>(claimed.count());
+  }
+
+ private:
+  /// Enough for a mean.
+  static std::vector<Eigen::Vector3d> few(const std::vector<Eigen::Vector3d>& points) {
+    const std::size_t stride = 1 + points.size() / 100;
+    std::vector<Eigen::Vector3d> some;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      some.push_back(points[i]);
+    }
+    return some;
+  }
+};
+
+Misses missesAt(const TriangleMesh& foot,
+                const View& view,
+                int places,
+                const std::vector<SkinCandidate>& candidates) {
+  Dice dice(5);
+  Misses misses;
+  for (int found = 0; found < places;) {
+    const int vertex = static_cast<int>(dice.uniform() * static_cast<double>(foot.vertices.size()));
+    auto place = placeAt(foot, vertex, view.radius_mm, view.skin_curve_mm);
+    if (place) {
+      addNoise(*place, view.noise_mm, static_cast<std::uint64_t>(++found));
+      misses.add(*place, candidates);
     }
   }
-  return place;
+  return misses;
 }
 
-void printLine(const TriangleMesh& foot,
-               double radius_mm,
-               double noise_mm,
-               const ReferenceSkinOptions& options) {
-  constexpr int kPlaces = 100;
-  Dice dice(5);
-  std::vector<double> errors;
-  while (static_cast<int>(errors.size()) < kPlaces) {
-    const int vertex = static_cast<int>(dice.uniform() * static_cast<double>(foot.vertices.size()));
-    auto place = placeAt(foot, vertex, radius_mm, options.annulus_mm);
-    if (!place) {
-      continue;
-    }
-    const CorrelatedNoise noise(noise_mm, 1.5, errors.size());
-    for (SkinSample& s : place->around) {
-      s.position_mm += noise.at(s.position_mm) * s.normal;
-    }
-    const auto skin = fitReferenceSkin(place->around, place->middle, options);
-    if (!skin) {
-      errors.push_back(9.9);
-      continue;
-    }
-    double sum = 0.0;
-    for (const auto& p : place->inside) {
-      sum += skin->footOf(p).depth_mm / static_cast<double>(place->inside.size());
-    }
-    errors.push_back(sum);
+void printHead(const std::vector<SkinCandidate>& candidates) {
+  std::printf("| |");
+  for (const SkinCandidate& candidate : candidates) {
+    std::printf(" %s |", candidate.name.c_str());
   }
-  double mean = 0.0;
-  double rms = 0.0;
-  for (double& e : errors) {
-    mean += e / kPlaces;
-    rms += e * e / kPlaces;
-    e = std::abs(e);
+  std::printf(" its claimed sd | within 1.96 of it |\n|---|");
+  for (std::size_t k = 0; k < candidates.size() + 2; ++k) {
+    std::printf("---|");
   }
-  std::sort(errors.begin(), errors.end());
-  const std::string taper =
-      options.taper_mm < 1e6 ? std::to_string(options.taper_mm).substr(0, 3) : "none";
+  std::printf("\n");
+}
+
+void printClaim(const Misses& misses) {
+  std::printf(" %.2f | %.0f %% |\n", misses.claimed.rms(), misses.within_percent());
   std::fflush(stdout);
-  std::printf("| %g | %.1f | %s%d | %.2f | %s | %+.3f | %.3f | %.3f | %.3f |\n",
-              radius_mm,
-              noise_mm,
-              options.biconic ? "biconic " : "polynomial ",
-              options.degree,
-              options.departure_mm,
-              taper.c_str(),
-              mean,
-              std::sqrt(rms),
-              errors[kPlaces / 2],
-              errors[kPlaces * 9 / 10]);
+}
+
+void benchMiddle(const std::string& name, const TriangleMesh& foot, int places) {
+  const auto candidates = skinCandidates();
+  const Misses misses = missesAt(foot, {}, places, candidates);
+  std::printf(
+      "### %s, %d random places: middle case, mm\n\n"
+      "| | mean | rms | median | 90 %% |\n|---|---|---|---|---|\n",
+      name.c_str(),
+      places);
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Spread& s = misses.of_candidate[k];
+    std::printf("| %s | %+.3f | %.3f | %.3f | %.3f |\n",
+                candidates[k].name.c_str(),
+                s.mean(),
+                s.rms(),
+                s.quantile(0.5),
+                s.quantile(0.9));
+  }
+  std::printf(
+      "\nThe default claims %.3f mm (rms); %.0f %% of its misses lie within 1.96 of it.\n\n",
+      misses.claimed.rms(),
+      misses.within_percent());
+  std::fflush(stdout);
+}
+
+void benchViews(const std::string& name,
+                const TriangleMesh& foot,
+                const std::vector<View>& views,
+                int places) {
+  const auto candidates = skinCandidates();
+  std::printf("### %s, %d random places: rms (median) in mm\n\n", name.c_str(), places);
+  printHead(candidates);
+  for (const View& view : views) {
+    const Misses misses = missesAt(foot, view, places, candidates);
+    std::printf("| %s |", view.name.c_str());
+    for (const Spread& s : misses.of_candidate) {
+      std::printf(" %.2f (%.2f) |", s.rms(), s.quantile(0.5));
+    }
+    printClaim(misses);
+  }
+  std::printf("\n");
+}
+
+void benchUlcers(const IntactFoot& own, const TriangleMesh& foot, int seeds) {
+  const auto candidates = skinCandidates();
+  std::printf("### Where the simulated ulcers lie: mean ± sd over %d seeds, mm\n\n", seeds);
+  printHead(candidates);
+  for (const FootCase which :
+       {FootCase::Forefoot, FootCase::Heel, FootCase::Lateral, FootCase::Two}) {
+    const auto carved = carveUlcers(own, ulcerDesigns(which));
+    if (!carved) {
+      std::printf("%s\n", describe(carved.error()).c_str());
+      continue;
+    }
+    for (const Ulcer& ulcer : carved->ulcers) {
+      const UlcerDesign& design = ulcer.design();
+      const double radius_mm = std::sqrt(design.half_length_mm * design.half_width_mm);
+      const auto place = placeAt(foot, nearestVertex(foot, ulcer.center()), radius_mm, 2.0);
+      Misses misses;
+      for (int seed = 1; place && seed <= seeds; ++seed) {
+        FootPlace noisy = *place;
+        addNoise(noisy, 0.2, static_cast<std::uint64_t>(seed));
+        misses.add(noisy, candidates);
+      }
+      std::printf("| %s, a%.1f |", design.site.c_str(), radius_mm);
+      for (const Spread& s : misses.of_candidate) {
+        std::printf(" %+.2f ± %.2f |", s.mean(), s.deviation());
+      }
+      printClaim(misses);
+    }
+  }
+  std::printf("\n");
+}
+
+TriangleMesh meshOf(const IntactFoot& foot) {
+  TriangleMesh mesh = toTriangleMesh(foot.mesh);
+  mesh.normals = vertexNormals(mesh);
+  return mesh;
 }
 
 }  // namespace
 
-void benchFoot(const std::filesystem::path& obj) {
-  auto foot = readObj(obj);
-  if (!foot) {
-    std::printf("%s\n", describe(foot.error()).c_str());
-    return;
-  }
-  for (auto& v : foot->vertices) {
-    v *= 1000.0F;  // the file is in metres
-  }
-  foot->normals = vertexNormals(*foot);
+void benchFeet(const std::optional<std::filesystem::path>& real_foot, int seeds) {
+  const int places = 5 * seeds;
+  const std::vector<View> views{{.name = "no noise", .noise_mm = 0.0},
+                                {.name = "a5", .radius_mm = 5.0},
+                                {.name = "a15", .radius_mm = 15.0},
+                                {.name = "a20", .radius_mm = 20.0},
+                                {.name = "K 1 mm", .skin_curve_mm = 1.0},
+                                {.name = "K 4 mm", .skin_curve_mm = 4.0},
+                                {.name = "K 6 mm", .skin_curve_mm = 6.0}};
   std::printf(
-      "| radius mm | noise mm | fit | departure mm | taper mm | mean mm | rms mm | median "
-      "mm | 90 %% mm |\n|---|---|---|---|---|---|---|---|---|\n");
-  constexpr double kNoTaper_mm = 1e9;
-  const std::vector<ReferenceSkinOptions> all{
-      {.taper_mm = kNoTaper_mm, .departure_mm = 0.0, .degree = 2, .biconic = false},
-      {.taper_mm = kNoTaper_mm, .departure_mm = 0.0, .degree = 4, .biconic = false},
-      {.departure_mm = 0.0, .degree = 4, .biconic = false},
-      {.taper_mm = kNoTaper_mm, .degree = 1},
-      {.taper_mm = kNoTaper_mm},
-      {.taper_mm = 1.5},
-      {},
-      {.departure_mm = 1.0}};
-  for (const double radius_mm : {5.0, 10.0, 15.0}) {
-    for (const double noise_mm : {0.0, 0.2}) {
-      for (const auto& options : all) {
-        printLine(*foot, radius_mm, noise_mm, options);
-      }
+      "## Feet: how far the mean skin under a round wound misses the true one\n\n"
+      "Unless the row says otherwise: radius (a) 10 mm, K 2 mm outside, noise 0.2 mm. 0.1 mm is "
+      "5 %% of the volume of\na wound of mean depth 2 mm. Places: up to 80 mm above the sole, not "
+      "between toes.\n\n");
+  if (real_foot) {
+    const auto real = loadFoot(*real_foot / "template.obj");
+    if (real) {
+      const TriangleMesh mesh = meshOf(*real);
+      benchMiddle("Real foot (shared data)", mesh, places);
+      benchViews("Real foot (shared data)", mesh, views, places);
+    } else {
+      std::printf("%s\n\n", describe(real.error()).c_str());
     }
+  } else {
+    std::printf("The real foot is left out: its shared data is not here.\n\n");
   }
+  const IntactFoot own = makeOwnFoot();
+  const TriangleMesh mesh = meshOf(own);
+  benchMiddle("Simulated foot", mesh, places);
+  benchUlcers(own, mesh, seeds);
 }
 
 }  // namespace tarsus::test

@@ -69,6 +69,13 @@ TEST(ReferenceSkin, FollowsAToeAndASaddle) {
   EXPECT_NEAR(meanMiss(*saddle, test::saddleSkin(40.0), 10.0), 0.0, 0.01);
 }
 
+TEST(ReferenceSkin, FollowsTheTipOfAToe) {
+  // The annulus reaches round to the other side, where normals point away from the wound.
+  const auto tip = fitReferenceSkin(ring(test::sphereSkin(10.0), 4.0), Eigen::Vector3d::Zero());
+  ASSERT_TRUE(tip) << describe(tip.error());
+  EXPECT_NEAR(meanMiss(*tip, test::sphereSkin(10.0), 4.0), 0.0, 1e-3);
+}
+
 TEST(ReferenceSkin, MeasuresDepthAlongItsNormal) {
   const test::Skin truth = test::sphereSkin(30.0);
   const auto skin = fitReferenceSkin(ring(truth, 10.0), Eigen::Vector3d::Zero());
