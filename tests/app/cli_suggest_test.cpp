@@ -98,11 +98,10 @@ TEST_F(CliSuggest, AClickOffTheModelIsRefused) {
 }
 
 TEST_F(CliSuggest, WrongUsage) {
-  for (const std::string& arguments :
-       {std::string("suggest"),
-        "suggest " + model() + " " + file("o.json"),
-        "suggest " + model() + " " + file("o.json") + " --at 1,2",
-        "suggest " + model() + " " + model() + " --at 0,0,0"}) {
+  for (const std::string& arguments : {std::string("suggest"),
+                                       "suggest " + model() + " " + file("o.json"),
+                                       "suggest " + model() + " " + file("o.json") + " --at 1,2",
+                                       "suggest " + model() + " " + model() + " --at 0,0,0"}) {
     EXPECT_EQ(cli(arguments).exit_code, 2) << arguments;
   }
   EXPECT_EQ(cli("suggest " + model() + " " + file("o.json") + " --at nan,0,0").exit_code, 1);
