@@ -21,7 +21,7 @@ constexpr double kMm2PerSample = 4.0;  ///< errors of a fused surface move toget
 constexpr std::size_t kFewestSamples = 200;
 constexpr int kPoses = 20;
 /// Bodies may look much the same turned about their upright axis: these steps are tried too.
-constexpr int kTurns = 24;
+constexpr int kTurns = 12;
 constexpr double kCellsAcross = 26.0;  ///< the search sees the body in so many points across
 constexpr double kOtherTurn_rad = 10.0 / 360.0 * kTurn;
 constexpr double kOtherShift_mm = 8.0;
