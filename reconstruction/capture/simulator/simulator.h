@@ -63,6 +63,7 @@ struct WoundTruth {
   double volume_mm3 = 0.0;
   double mean_depth_mm = 0.0;
   double max_depth_mm = 0.0;
+  double p99_depth_mm = 0.0;  ///< area-weighted over the bed
   double length_mm = 0.0;
   double width_mm = 0.0;
   double length_clock_mm = 0.0;

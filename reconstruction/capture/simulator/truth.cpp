@@ -54,11 +54,28 @@ ClosedCurve rimOf(const CarvedFoot& foot, int which) {
   return rim;
 }
 
+/// Depth that a hundredth of the area lies below; from (depth, area) of each face.
+double percentile99(std::vector<Vector2d> depth_area) {
+  std::ranges::sort(depth_area, std::ranges::greater(), [](const Vector2d& d) { return d.x(); });
+  double left_mm2 = 0.0;
+  for (const Vector2d& d : depth_area) {
+    left_mm2 += 0.01 * d.y();
+  }
+  for (const Vector2d& d : depth_area) {
+    left_mm2 -= d.y();
+    if (left_mm2 <= 0.0) {
+      return d.x();
+    }
+  }
+  return 0.0;
+}
+
 /// First way: sums over the faces inside the rim. The bed and the skin share the rim, so together
 /// they bound the volume, which is the difference of their cones from any one point.
 void sumFaces(const CarvedFoot& foot, int which, WoundTruth& truth) {
   const Vector3d apex = foot.ulcers[at(which)].center();
   double six_volumes = 0.0;
+  std::vector<Vector2d> depth_area;
   for (std::size_t i = 0; i < foot.intact.faces.size(); ++i) {
     if (foot.ulcer_of_face[i] != which) {
       continue;
@@ -72,12 +89,17 @@ void sumFaces(const CarvedFoot& foot, int which, WoundTruth& truth) {
       return a.dot(b.cross(c));
     };
     six_volumes += cone(foot.intact.positions, truth.opening_area_mm2);
+    const double bed_before_mm2 = truth.bed_area_mm2;
     six_volumes -= cone(foot.carved, truth.bed_area_mm2);
+    double depth_mm = 0.0;
     for (int k = 0; k < 3; ++k) {
       truth.max_depth_mm = std::max(truth.max_depth_mm, foot.depth_mm[at(f[k])]);
+      depth_mm += foot.depth_mm[at(f[k])] / 3.0;
     }
+    depth_area.emplace_back(depth_mm, truth.bed_area_mm2 - bed_before_mm2);
   }
   truth.volume_mm3 = six_volumes / 6.0;
+  truth.p99_depth_mm = percentile99(std::move(depth_area));
 }
 
 /// The faces around an ulcer alone, in its own coordinates: small numbers for single precision.

@@ -34,6 +34,7 @@ json woundJson(const WoundTruth& w) {
           {"volume_above_mm3", 0.0},
           {"mean_depth_mm", w.mean_depth_mm},
           {"max_depth_mm", w.max_depth_mm},
+          {"p99_depth_mm", w.p99_depth_mm},
           {"length_mm", w.length_mm},
           {"width_mm", w.width_mm},
           {"length_clock_mm", w.length_clock_mm},

@@ -90,13 +90,9 @@ BenchWound idealWound(
 }
 
 /// The faces with a vertex in the ball.
-TriangleMesh around(const TriangleMesh& mesh,
-                    const Eigen::Vector3d& center,
-                    double radius_mm,
-                    std::vector<int>& vertex_of) {
+TriangleMesh around(const TriangleMesh& mesh, const Eigen::Vector3d& center, double radius_mm) {
   const SurfacePatch patch = extractPatch(mesh, center, radius_mm);
   TriangleMesh part;
-  vertex_of = patch.mesh_vertex;
   for (const auto& v : patch.vertices) {
     part.vertices.push_back(v.cast<float>());
   }
@@ -110,9 +106,8 @@ TriangleMesh around(const TriangleMesh& mesh,
 BenchWound simulatedWound(const std::string& name, const SimulatedScene& scene, int which) {
   constexpr double kAround_mm = 60.0;
   const tarsus::WoundTruth& t = scene.wounds[static_cast<std::size_t>(which)];
-  std::vector<int> vertex_of;
   const auto part =
-      std::make_shared<TriangleMesh>(around(scene.foot.mesh, t.center_mm, kAround_mm, vertex_of));
+      std::make_shared<TriangleMesh>(around(scene.foot.mesh, t.center_mm, kAround_mm));
   const auto calm = std::make_shared<TexturedMesh>();
   calm->mesh = *part;
   *calm = withHash(std::move(*calm));
@@ -126,23 +121,9 @@ BenchWound simulatedWound(const std::string& name, const SimulatedScene& scene, 
                  {"volume_above_mm3", 0.0},
                  {"mean_depth_mm", t.mean_depth_mm},
                  {"max_depth_mm", t.max_depth_mm},
+                 {"p99_depth_mm", t.p99_depth_mm},
                  {"length_mm", t.length_mm},
                  {"width_mm", t.width_mm}};
-  std::vector<std::pair<double, double>> depths;
-  for (const auto& f : part->faces) {
-    double depth = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const int v = vertex_of[static_cast<std::size_t>(f[k])];
-      depth += static_cast<double>(
-                   (scene.foot.mesh.vertices[v] - scene.intact_foot.vertices[v]).norm()) /
-               3.0;
-    }
-    const auto at = [&](int k) -> Eigen::Vector3d { return part->vertices[f[k]].cast<double>(); };
-    if (depth > 1e-4 && (at(0) - t.center_mm).norm() < 1.2 * t.length_mm) {
-      depths.emplace_back(depth, (at(1) - at(0)).cross(at(2) - at(0)).norm());
-    }
-  }
-  wound.truth["p99_depth_mm"] = weightedPercentile(std::move(depths));
   wound.model = [part](double noise_mm, std::uint64_t seed) {
     const CorrelatedNoise noise(noise_mm, 1.5, seed);
     TexturedMesh foot;

@@ -41,7 +41,8 @@ TEST_P(TruthOf, TwoWaysAgreeWithinHalfAPercent) {
     EXPECT_DOUBLE_EQ(w.mean_depth_mm, w.volume_mm3 / w.opening_area_mm2);
     EXPECT_GT(w.bed_area_mm2, w.opening_area_mm2);
     EXPECT_LE(w.projected_area_mm2, w.opening_area_mm2);
-    EXPECT_GT(w.max_depth_mm, w.mean_depth_mm);
+    EXPECT_GT(w.p99_depth_mm, 1.3 * w.mean_depth_mm);
+    EXPECT_LE(w.p99_depth_mm, w.max_depth_mm);
     EXPECT_GE(w.length_mm + 1e-6, w.length_clock_mm);
     EXPECT_GE(w.length_mm, w.width_mm);
   }
