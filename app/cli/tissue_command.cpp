@@ -26,11 +26,11 @@ Expected<TissueShares> proposeFile(const Arguments& arguments) {
   if (!foot) {
     return tl::unexpected(foot.error());
   }
-  const auto points_mm = readOutlinePoints(arguments.outline);
-  if (!points_mm) {
-    return tl::unexpected(points_mm.error());
+  const auto file = readOutlineFile(arguments.outline);
+  if (!file) {
+    return tl::unexpected(file.error());
   }
-  const auto outline = traceOutline(*foot, MeshIndex(foot->mesh), *points_mm);
+  const auto outline = outlineOn(*foot, MeshIndex(foot->mesh), *file);
   if (!outline) {
     return tl::unexpected(outline.error());
   }

@@ -115,7 +115,7 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
     }
     source = file->source;
     warnOfSnapping(file->points_mm, index, warnings);
-    return traceOutline(*foot, index, file->points_mm);
+    return outlineOn(*foot, index, *file);
   };
   auto outline = trace(arguments.outline);
   const std::optional<OutlineSource> outline_source = source;

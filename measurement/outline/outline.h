@@ -43,12 +43,34 @@ enum class OutlineSource { Drawn, Suggested, SuggestedEdited };
 struct OutlineFile {
   std::vector<Eigen::Vector3d> points_mm;  ///< scan frame
   std::optional<OutlineSource> source;     ///< empty where the file does not say, or in other words
+  /// The curve as it was traced, to the bit; not checked yet. Empty where the file does not hold
+  /// it.
+  std::optional<WoundOutline> traced;
 };
 /// @errors FileMissing, FileUnreadable, OutlineInvalid
 [[nodiscard]] Expected<OutlineFile> readOutlineFile(const std::filesystem::path& path);
+/// The outline of a file on this model: as it was traced where that was on this very model and its
+/// points were not changed since, else through its points.
+/// @errors those of traceOutline
+[[nodiscard]] Expected<WoundOutline> outlineOn(const TexturedMesh& foot,
+                                               const MeshIndex& index,
+                                               const OutlineFile& file);
+/// Whether this is a point of a face of the mesh.
+[[nodiscard]] bool liesOn(const TriangleMesh& mesh, const SurfacePoint& point);
 /// The points alone.
 [[nodiscard]] Expected<std::vector<Eigen::Vector3d>> readOutlinePoints(
     const std::filesystem::path& path);
+/// How a reader that knows only the points gets about the same curve: by the clicks of one whose
+/// clicks are joined straight, by all points of a smooth one.
+enum class OutlineShape { Straight, Smooth };
+/// With what was traced, so that the same model gives the same numbers to the bit.
+/// @errors FileUnwritable, DiskFull
+[[nodiscard]] Expected<void> writeOutline(const std::filesystem::path& path,
+                                          const TexturedMesh& foot,
+                                          const WoundOutline& outline,
+                                          OutlineShape shape,
+                                          std::optional<OutlineSource> source = {});
+/// Without what was traced.
 /// @errors FileUnwritable, DiskFull
 [[nodiscard]] Expected<void> writeOutlinePoints(const std::filesystem::path& path,
                                                 std::span<const Eigen::Vector3d> points_mm,

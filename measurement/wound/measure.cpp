@@ -1,5 +1,6 @@
 #include "measurement/wound/measure.h"
 
+#include "measurement/outline/outline_trace.h"
 #include "measurement/wound/bed.h"
 #include "measurement/wound/noise_trials.h"
 #include "measurement/wound/quantities.h"
@@ -67,6 +68,7 @@ class WoundMeasurer {
         (skin_curve ? "drawn by hand"
                     : oneDecimal(options_.skin_curve_offset_mm) + " mm outside the outline");
     judgeQuality();
+    judgeSkinCurve();
     if (options_.intervals) {
       fillIntervals();
     }
@@ -147,6 +149,18 @@ class WoundMeasurer {
     if (nearModelEdge(site_, options_.skin_curve_offset_mm + 1.0)) {
       warn("outline_at_model_edge",
            "The outline lies at a hole or at the edge of the model; scan that place again.");
+    }
+  }
+
+  void judgeSkinCurve() {
+    uneven_skin_ = unevenAlongSkinCurve(
+        skinSamples(foot_, site_, 0.0, options_), skin_, options_.skin.correlation_area_mm2);
+    if (!uneven_skin_.empty()) {
+      warn("skin_curve_uneven",
+           "The skin curve runs over raised or sloping skin, as at a callus, at " +
+               std::to_string(uneven_skin_.size()) + " of 8 stretches, first near " +
+               placeText(uneven_skin_.front().at_mm) +
+               "; draw it farther out there, or volume and depth may be wrong.");
     }
   }
 
@@ -239,6 +253,7 @@ class WoundMeasurer {
     constexpr double kSkinEdge_mm = 0.8;
     wound.reference = meshSkin(skin_, on_skin, kSkinEdge_mm);
     wound.skin_curve_mm = site_.skin_curve_mm;
+    wound.uneven_skin = std::move(uneven_skin_);
     return wound;
   }
 
@@ -251,6 +266,7 @@ class WoundMeasurer {
   BedDepths depths_;
   Quantities values_;
   WoundMeasurement numbers_;
+  std::vector<UnevenSkin> uneven_skin_;
 };
 
 }  // namespace

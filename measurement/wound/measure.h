@@ -2,6 +2,7 @@
 
 #include "measurement/outline/outline.h"
 #include "measurement/wound/reference_skin.h"
+#include "measurement/wound/skin_curve_check.h"
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/mesh.h"
 
@@ -72,6 +73,7 @@ struct MeasuredWound {
   TriangleMesh reference;                      ///< S inside C
   std::vector<Eigen::Vector3d> outline_mm;     ///< C as traced, closed
   std::vector<Eigen::Vector3d> skin_curve_mm;  ///< K as used, closed
+  std::vector<UnevenSkin> uneven_skin;         ///< where K runs over raised or sloping skin
 };
 
 /// Measures the wound inside `outline`. The reference skin is a smooth surface that fits the skin

@@ -36,9 +36,7 @@ std::optional<std::string> whyUnusable(const TexturedMesh& foot, const WoundOutl
     return "it has fewer than 3 points";
   }
   for (const SurfacePoint& point : outline.curve) {
-    const auto& b = point.barycentric;
-    if (point.face >= foot.mesh.faces.size() || !b.allFinite() || b.minCoeff() < -1e-9 ||
-        std::abs(b.sum() - 1.0) > 1e-6) {
+    if (!liesOn(foot.mesh, point)) {
       return "a point does not lie on the surface";
     }
   }

@@ -1,9 +1,13 @@
 #include "measurement/outline/outline.h"
+#include "tests/measurement/outline/wound_surface.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
 
 namespace tarsus {
 namespace {
@@ -56,6 +60,68 @@ TEST(OutlineFile, AcceptsFurtherFields) {
       R"({"frame":"scan","unit":"mm","closed":true,"name":"heel","points":[[0,0,0],[1,0,0],[0,1,0]]})"));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->size(), 3U);
+}
+
+class TracedInFile : public testing::Test {
+ protected:
+  TracedInFile()
+      : foot_(test::woundMesh(test::planeSkin(), test::bowl(6.0, 2.0), {.half_size_mm = 15.0})),
+        index_(foot_.mesh),
+        traced_(*traceOutline(
+            foot_, index_, test::circleOn(test::planeSkin(), test::bowl(6.0, 2.0), 6.0, 9))) {
+    EXPECT_TRUE(writeOutline(path(), foot_, traced_, OutlineShape::Straight));
+  }
+  [[nodiscard]] std::filesystem::path path() const { return folder_.path() / "outline.json"; }
+  [[nodiscard]] WoundOutline readBack() const {
+    const auto file = readOutlineFile(path());
+    EXPECT_TRUE(file);
+    const auto outline = outlineOn(foot_, index_, *file);
+    EXPECT_TRUE(outline);
+    return *outline;
+  }
+  void change(const std::function<void(nlohmann::json&)>& edit) const {
+    auto document = nlohmann::json::parse(std::ifstream(path()));
+    edit(document);
+    std::ofstream(path()) << document.dump();
+  }
+  static bool same(const WoundOutline& a, const WoundOutline& b) {
+    return std::ranges::equal(a.curve, b.curve, [](const auto& p, const auto& q) {
+      return p.face == q.face && p.barycentric == q.barycentric;
+    });
+  }
+
+  TemporaryFolder folder_;
+  TexturedMesh foot_;
+  MeshIndex index_;
+  WoundOutline traced_;
+};
+
+TEST_F(TracedInFile, IsTheSameToTheBitOnTheSameModel) { EXPECT_TRUE(same(readBack(), traced_)); }
+
+TEST_F(TracedInFile, IsTracedAnewThroughChangedPointsOrOnAnotherModel) {
+  change([](auto& document) { document["points"].erase(2); });
+  EXPECT_FALSE(same(readBack(), traced_));
+  EXPECT_EQ(readBack().clicks.size(), 8U);
+  EXPECT_TRUE(writeOutline(path(), foot_, traced_, OutlineShape::Straight));
+  change([](auto& document) { document["traced"]["mesh_sha256"] = "another"; });
+  EXPECT_EQ(readBack().mesh_sha256, foot_.sha256);
+}
+
+TEST_F(TracedInFile, IsLeftAsideWhereItIsNoCurveOnTheModel) {
+  const nlohmann::json far_face = {4000000000U, 0.2, 0.3, 0.5};
+  const nlohmann::json outside = {3, -7.0, 4.0, 4.0};
+  for (const nlohmann::json& wrong :
+       {far_face, outside, nlohmann::json("x"), nlohmann::json{1, 2}, nlohmann::json()}) {
+    EXPECT_TRUE(writeOutline(path(), foot_, traced_, OutlineShape::Straight));
+    change([&](auto& document) { document["traced"]["clicks"][0] = wrong; });
+    EXPECT_EQ(readBack().clicks.size(), 9U) << wrong;
+    EXPECT_TRUE(writeOutline(path(), foot_, traced_, OutlineShape::Straight));
+    change([&](auto& document) { document["traced"]["curve"][0] = wrong; });
+    EXPECT_EQ(readBack().clicks.size(), 9U) << wrong;
+    EXPECT_TRUE(std::ranges::all_of(readBack().curve, [&](const SurfacePoint& p) {
+      return liesOn(foot_.mesh, p);
+    })) << wrong;
+  }
 }
 
 TEST(OutlineFile, RefusesWithASentence) {

@@ -55,6 +55,9 @@ std::optional<FootPlace> placeAt(const TriangleMesh& foot,
   const double inner_mm = radius_mm + skin_curve_mm;
   const SurfacePatch patch = extractPatch(foot, middle, inner_mm + kSamples_mm);
   const auto start = std::ranges::find(patch.mesh_vertex, vertex);
+  if (start == patch.mesh_vertex.end()) {
+    return std::nullopt;  // a vertex without faces
+  }
   FootPlace place{.middle = middle};
   for (const int v : joinedTo(patch, static_cast<int>(start - patch.mesh_vertex.begin()))) {
     const Eigen::Vector3d n = foot.normals[patch.mesh_vertex[v]].cast<double>();

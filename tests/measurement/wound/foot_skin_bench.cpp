@@ -28,6 +28,7 @@ struct Misses {
   std::vector<Spread> of_candidate;
   Spread claimed;
   int within = 0;  ///< places where the default misses by less than 1.96 of what it claims
+  int no_fit = 0;  ///< places that the default refused
 
   void add(const FootPlace& place, const std::vector<SkinCandidate>& candidates) {
     of_candidate.resize(candidates.size());
@@ -37,6 +38,10 @@ struct Misses {
       for (std::size_t i = 0; i < place.inside.size(); ++i) {
         miss += skin.miss_mm(place.inside[i], place.inside_normals[i]) /
                 static_cast<double>(place.inside.size());
+      }
+      if (std::isnan(miss)) {
+        no_fit += k + 1 == candidates.size() ? 1 : 0;
+        continue;
       }
       of_candidate[k].add(miss);
       if (skin.claimed_sd_mm) {
@@ -113,9 +118,11 @@ void benchMiddle(const std::string& name, const TriangleMesh& foot, int places) 
                 s.quantile(0.9));
   }
   std::printf(
-      "\nThe default claims %.3f mm (rms); %.0f %% of its misses lie within 1.96 of it.\n\n",
+      "\nThe default claims %.3f mm (rms); %.0f %% of its misses lie within 1.96 of it. It refused "
+      "%d places.\n\n",
       misses.claimed.rms(),
-      misses.within_percent());
+      misses.within_percent(),
+      misses.no_fit);
   std::fflush(stdout);
 }
 
