@@ -24,9 +24,9 @@ struct Command {
 /// A subcommand with the options that all have (--json, --quiet).
 CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const char* what);
 
-/// The output of a parsed subcommand that names one of its own inputs, or empty: writing it would
-/// destroy what was read.
-[[nodiscard]] std::string outputThatIsInput(const CLI::App& sub);
+/// The output of a parsed subcommand that is one of its own inputs or another output, or empty:
+/// writing it would destroy the other.
+[[nodiscard]] std::string outputThatClashes(const CLI::App& sub);
 
 void addSimulate(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);

@@ -95,9 +95,10 @@ int parseAndRun(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
   for (const CLI::App* sub : app.get_subcommands()) {
-    if (const std::string file = outputThatIsInput(*sub); !file.empty()) {
+    if (const std::string file = outputThatClashes(*sub); !file.empty()) {
       std::cerr << "tarsus-cli: " << file
-                << " is read by this command and would be overwritten; give another output.\n";
+                << " is read, or written a second time, by this command and would be overwritten; "
+                   "give another output.\n";
       return kWrongUsage;
     }
   }

@@ -93,11 +93,12 @@ void addWoundOptions(CLI::App& sub, WoundArguments& arguments) {
                    ->delimiter(',')
                    ->expected(3)
                    ->type_name("X,Y,Z");
-  sub.add_option("--toe", arguments.toe_mm, "Toe landmark")
-      ->delimiter(',')
-      ->expected(3)
-      ->type_name("X,Y,Z")
-      ->needs(heel);
+  auto* toe = sub.add_option("--toe", arguments.toe_mm, "Toe landmark")
+                  ->delimiter(',')
+                  ->expected(3)
+                  ->type_name("X,Y,Z")
+                  ->needs(heel);
+  heel->needs(toe);
 }
 
 Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
@@ -126,7 +127,7 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
   if (!arguments.skin_curve.empty()) {
     auto traced = trace(arguments.skin_curve);
     if (!traced) {
-      return tl::unexpected(traced.error());
+      return fail(ErrorCode::SkinCurveInvalid, "skin curve: " + traced.error().detail);
     }
     skin_curve = std::move(*traced);
   }

@@ -1,4 +1,5 @@
 #include "measurement/outline/outline.h"
+#include "measurement/outline/segment.h"
 #include "reconstruction/base/atomic_file.h"
 
 #include <nlohmann/json.hpp>
@@ -123,6 +124,24 @@ bool isThrough(const TriangleMesh& mesh,
       positions, points_mm, [](const auto& a, const auto& b) { return (a - b).norm() < kSame_mm; });
 }
 
+/// Whether the curve runs by all of the clicks: a file may hold what does not belong together.
+bool runsBy(const TriangleMesh& mesh, const WoundOutline& outline) {
+  constexpr double kBeside_mm = 0.05;
+  if (!std::ranges::all_of(outline.clicks, [&](const auto& p) { return liesOn(mesh, p); })) {
+    return false;
+  }
+  const auto curve = positionsOn(mesh, outline.curve);
+  const auto clicks = positionsOn(mesh, outline.clicks);
+  return std::ranges::all_of(clicks, [&](const Eigen::Vector3d& click) {
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      if (nearestOnSegment(click, curve[i], curve[(i + 1) % curve.size()]).distance < kBeside_mm) {
+        return true;
+      }
+    }
+    return false;
+  });
+}
+
 }  // namespace
 
 bool liesOn(const TriangleMesh& mesh, const SurfacePoint& point) {
@@ -196,7 +215,8 @@ Expected<WoundOutline> outlineOn(const TexturedMesh& foot,
   if (traced && traced->mesh_sha256 == foot.sha256 &&
       std::ranges::all_of(traced->curve, [&](const auto& p) { return liesOn(foot.mesh, p); }) &&
       (isThrough(foot.mesh, traced->clicks, file.points_mm) ||
-       isThrough(foot.mesh, traced->curve, file.points_mm))) {
+       isThrough(foot.mesh, traced->curve, file.points_mm)) &&
+      runsBy(foot.mesh, *traced)) {
     return *traced;
   }
   return traceOutline(foot, index, file.points_mm);

@@ -141,7 +141,10 @@ class WoundMeasurer {
            "Volume / area is " + oneDecimal(*numbers_.mean_depth_mm) +
                " mm; below 4 mm a volume is less precise than 5 %.");
     }
-    if (*numbers_.volume_above_mm3 > *numbers_.volume_mm3) {
+    // On a bed that is level with the skin both are noise.
+    constexpr double kAbove_mm = 0.1;
+    if (*numbers_.volume_above_mm3 > *numbers_.volume_mm3 &&
+        *numbers_.volume_above_mm3 > kAbove_mm * depths_.opening_mm2) {
       warn("bed_above_skin",
            "More of the bed lies above the reference skin than below it: the wound is overgrown, "
            "or the faces of this model point inwards; look at the model before you use a number.");

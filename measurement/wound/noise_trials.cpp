@@ -51,25 +51,32 @@ struct Nodes {
 };
 
 Nodes gatherNodes(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
-  Nodes nodes;
-  std::map<std::array<int, 3>, int> cells;
-  std::vector<int> counts;
-  for (const Eigen::Vector3d& p : points) {
-    const auto place = [&](double x) { return static_cast<int>(std::floor(x / cell_mm)); };
-    const auto [it, fresh] = cells.try_emplace({place(p.x()), place(p.y()), place(p.z())},
-                                               static_cast<int>(nodes.places.size()));
-    if (fresh) {
-      nodes.places.emplace_back(Eigen::Vector3d::Zero());
-      counts.push_back(0);
-    }
-    nodes.of_vertex.push_back(it->second);
-    nodes.places[it->second] += p;
-    ++counts[it->second];
+  std::map<std::array<int, 3>, std::vector<int>> cells;  // sorted: whatever the vertices' order
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto place = [&](int k) { return static_cast<int>(std::floor(points[i][k] / cell_mm)); };
+    cells[{place(0), place(1), place(2)}].push_back(static_cast<int>(i));
   }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    nodes.places[i] /= counts[i];
+  Nodes nodes;
+  nodes.of_vertex.resize(points.size());
+  for (const auto& [cell, vertices] : cells) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int v : vertices) {
+      nodes.of_vertex[v] = static_cast<int>(nodes.places.size());
+      sum += points[v];
+    }
+    nodes.places.emplace_back(sum / static_cast<double>(vertices.size()));
   }
   return nodes;
+}
+
+/// In the skin's own frame, which turns with the foot.
+std::vector<Eigen::Vector3d> placesOnSkin(const BedDepths& depths, bool with_depth) {
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(depths.feet.size());
+  for (const auto& foot : depths.feet) {
+    places.emplace_back(foot.uv.x(), foot.uv.y(), with_depth ? foot.depth_mm : 0.0);
+  }
+  return places;
 }
 
 /// #nodes x kTrials noise of variance 1, correlated as exp(-d^2 / (2 length^2)): sums of waves with
@@ -96,7 +103,9 @@ double correlationLength_mm() {
 class Trials {
  public:
   Trials(const Bed& bed, const BedDepths& depths, const ReferenceSkin& skin)
-      : bed_(bed), depths_(depths), bed_nodes_(gatherNodes(bed.vertices, kBedCell_mm)) {
+      : bed_(bed),
+        depths_(depths),
+        bed_nodes_(gatherNodes(placesOnSkin(depths, true), kBedCell_mm)) {
     noise_ = correlatedNoise(bed_nodes_, correlationLength_mm());
     moveSkin(skin);
     layFaces();
@@ -127,12 +136,7 @@ class Trials {
   static constexpr double kSkinCell_mm = 3.0;
 
   void moveSkin(const ReferenceSkin& skin) {
-    std::vector<Eigen::Vector3d> flat;
-    flat.reserve(depths_.feet.size());
-    for (const auto& foot : depths_.feet) {
-      flat.emplace_back(foot.uv.x(), foot.uv.y(), 0.0);
-    }
-    skin_nodes_ = gatherNodes(flat, kSkinCell_mm);
+    skin_nodes_ = gatherNodes(placesOnSkin(depths_, false), kSkinCell_mm);
     const auto count = static_cast<Eigen::Index>(skin_nodes_.places.size());
     Eigen::Matrix2Xd uv(2, count);
     for (Eigen::Index i = 0; i < count; ++i) {

@@ -1,6 +1,8 @@
 #include "measurement/wound/reference_skin.h"
 #include "measurement/wound/skin_base.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,10 +25,38 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Eigen::Isometry3d frameAt(const Eigen::Vector3d& origin, const Eigen::Vector3d& normal) {
+/// Main directions of the samples, the longest first, each towards its longer tail: the axes of a
+/// frame that turns with the foot, so that numbers do not depend on how it lay before the camera.
+Eigen::Matrix3d mainDirections(std::span<const SkinSample> samples) {
+  double area = 0.0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const SkinSample& s : samples) {
+    area += s.area_mm2;
+    middle += s.area_mm2 * s.position_mm;
+  }
+  middle /= area;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const SkinSample& s : samples) {
+    const Eigen::Vector3d away = s.position_mm - middle;
+    spread += s.area_mm2 * away * away.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
+  for (int k = 0; k < 3; ++k) {
+    double tail = 0.0;
+    for (const SkinSample& s : samples) {
+      tail += s.area_mm2 * std::pow((s.position_mm - middle).dot(axes.col(k)), 3);
+    }
+    axes.col(k) *= tail < 0.0 ? -1.0 : 1.0;
+  }
+  return axes;
+}
+
+Eigen::Isometry3d frameAt(const Eigen::Vector3d& origin,
+                          const Eigen::Vector3d& normal,
+                          const Eigen::Matrix3d& axes) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d hint =
-      std::abs(normal.x()) < 0.7 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d hint = std::abs(normal.dot(axes.col(0))) < 0.9 ? axes.col(0) : axes.col(1);
   const Eigen::Vector3d right = (hint - normal.dot(hint) * normal).normalized();
   frame.linear().col(0) = right;
   frame.linear().col(1) = normal.cross(right);
@@ -56,6 +86,10 @@ class SkinFitter {
       : samples_(samples), options_(options) {}
 
   Expected<ReferenceSkin> run(const Eigen::Vector3d& middle_mm) {
+    if (samples_.empty()) {
+      return fail(ErrorCode::ReferenceSkinFailed, "there is no skin around the skin curve");
+    }
+    axes_ = mainDirections(samples_);
     // The more the skin departs from a biconic, the less what is far says about the wound's.
     auto skin = fitWithin(options_.annulus_mm, middle_mm);
     // Far skin may lie all around a toe, so that no plane bears it; then near skin alone.
@@ -84,7 +118,7 @@ class SkinFitter {
     if (normal.norm() <= 0.0) {
       return fail(ErrorCode::ReferenceSkinFailed, "there is no skin around the skin curve");
     }
-    skin_.scan_from_skin_ = frameAt(middle_mm, normal.normalized());
+    skin_.scan_from_skin_ = frameAt(middle_mm, normal.normalized(), axes_);
     if (const std::string reason = settleFrame(); !reason.empty()) {
       return fail(ErrorCode::ReferenceSkinFailed, reason);
     }
@@ -263,8 +297,8 @@ class SkinFitter {
     const Eigen::Vector3d normal =
         Eigen::Vector3d(-middle.gradient.x(), -middle.gradient.y(), 1.0).normalized();
     const Eigen::Matrix3d before = skin_.scan_from_skin_.linear();
-    skin_.scan_from_skin_ =
-        frameAt(skin_.scan_from_skin_ * Eigen::Vector3d(0.0, 0.0, middle.height), before * normal);
+    skin_.scan_from_skin_ = frameAt(
+        skin_.scan_from_skin_ * Eigen::Vector3d(0.0, 0.0, middle.height), before * normal, axes_);
     // The axes may turn about the normal.
     const Eigen::Matrix2d turn =
         (skin_.scan_from_skin_.linear().transpose() * before).topLeftCorner<2, 2>();
@@ -292,6 +326,7 @@ class SkinFitter {
 
   std::span<const SkinSample> samples_;
   const ReferenceSkinOptions& options_;
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< main directions of all samples
   ReferenceSkin skin_;
   std::vector<Local> local_;
   double reach_mm_ = 0.0;  ///< outside the skin curve

@@ -165,8 +165,20 @@ Expected<std::string> readTextFile(const fs::path& path) {
   if (!file.is_open()) {
     return fail(ErrorCode::FileUnreadable, path.string());
   }
+  constexpr std::size_t kLargest = std::size_t{1} << 30U;  // a device may never end
+  constexpr std::size_t kStep = std::size_t{1} << 20U;
   try {
-    return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string bytes;
+    std::size_t got = kStep;
+    while (got == kStep && bytes.size() < kLargest) {
+      bytes.resize(bytes.size() + kStep);
+      file.read(bytes.data() + bytes.size() - kStep, kStep);
+      got = static_cast<std::size_t>(file.gcount());
+      bytes.resize(bytes.size() - kStep + got);
+    }
+    return bytes.size() < kLargest ? Expected<std::string>(std::move(bytes))
+                                   : fail(ErrorCode::FileUnreadable,
+                                          path.string() + " is larger than a file of this kind");
   } catch (const std::ios_base::failure&) {
     return fail(ErrorCode::FileUnreadable, path.string());
   }

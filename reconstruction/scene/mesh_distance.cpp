@@ -152,7 +152,12 @@ Expected<void> checkMesh(const TriangleMesh& mesh, const char* name) {
         ErrorCode::MeshInvalid,
         std::string(name) + (finite ? " has no faces" : " has a vertex that is not finite"));
   }
-  return {};
+  const bool has_area = std::ranges::any_of(mesh.faces, [&](const Eigen::Vector3i& f) {
+    const auto& a = mesh.vertices[f[0]];
+    return (mesh.vertices[f[1]] - a).cross(mesh.vertices[f[2]] - a).squaredNorm() > 0.0F;
+  });
+  return has_area ? Expected<void>()
+                  : fail(ErrorCode::MeshInvalid, std::string(name) + " has no area");
 }
 
 /// `a` laid onto `b`; only what lies in the region (before the move) leads the fit.

@@ -107,6 +107,24 @@ TEST_F(CliMeasure, FollowsPointsThatWereChangedInTheFile) {
   EXPECT_LT(fromCommandLine("").at("opening_area_mm2").get<double>(), before_mm2 - 2.0);
 }
 
+TEST_F(CliMeasure, DoesNotBelieveACurveThatLeavesItsClicks) {
+  const OutlineEditor outline = drawn(clicks_mm_);
+  save("outline.json", outline);
+  const auto honest = fromCommandLine("");
+  std::vector<Eigen::Vector3d> inside_mm;
+  for (const Eigen::Vector3d& p : clicks_mm_) {
+    inside_mm.emplace_back(0.5 * p.x(), 0.5 * p.y(), p.z() - 1.0);
+  }
+  save("inside.json", drawn(inside_mm));
+  auto document = nlohmann::json::parse(std::ifstream(file("outline.json")));
+  document["traced"]["curve"] =
+      nlohmann::json::parse(std::ifstream(file("inside.json"))).at("traced").at("curve");
+  std::ofstream(file("outline.json")) << document.dump();
+  EXPECT_NEAR(fromCommandLine("").at("opening_area_mm2").get<double>(),
+              honest.at("opening_area_mm2").get<double>(),
+              1e-6);
+}
+
 TEST_F(CliMeasure, GivesTheSameBitsWithADraggedSkinCurveAndLandmarks) {
   const OutlineEditor outline = drawn(clicks_mm_);
   const OutlineEditor skin_curve =

@@ -168,18 +168,25 @@ TEST_F(Cli, ModelThatIsNoMeshIsRefused) {
 TEST_F(Cli, NothingThatIsReadIsOverwritten) {
   writeSquare(file("square.ply"));
   writeText(file("outline.json"), "{}");
+  fs::copy_file(file("square.ply"), file("bed.ply"));
   const auto size = fs::file_size(file("square.ply"));
-  for (const std::string& arguments : {"report " + file("square.ply") + " " + file("square.ply") +
-                                           " --outline " + file("outline.json"),
-                                       "measure " + file("square.ply") + " --outline " +
-                                           file("outline.json") + " --json " + file("outline.json"),
-                                       "evaluate " + file("square.ply") + " " + file("square.ply") +
-                                           " --heatmap " + file("square.ply")}) {
+  for (const std::string& arguments :
+       {"report " + file("square.ply") + " " + file("square.ply") + " --outline " +
+            file("outline.json"),
+        "measure " + file("square.ply") + " --outline " + file("outline.json") + " --json " +
+            file("outline.json"),
+        "evaluate " + file("square.ply") + " " + file("square.ply") + " --heatmap " +
+            file("square.ply"),
+        "measure " + file("bed.ply") + " --outline " + file("outline.json") + " --artifacts " +
+            file(""),
+        "evaluate " + file("square.ply") + " " + file("square.ply") + " --heatmap " +
+            file("new.ply") + " --json " + file("new.ply")}) {
     const CliRun run = cli(arguments);
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_NE(run.output.find("would be overwritten"), std::string::npos) << run.output;
   }
   EXPECT_EQ(fs::file_size(file("square.ply")), size);
+  EXPECT_EQ(fs::file_size(file("bed.ply")), size);
   EXPECT_EQ(fs::file_size(file("outline.json")), 2U);
 }
 

@@ -454,6 +454,49 @@ TEST(MeasureWound, GivesTheSameBitsEachTime) {
   }
 }
 
+/// A noisy saddle with an oval wound, turned and moved as a foot may lie before the camera.
+TEST(MeasureWound, DoesNotDependOnHowTheFootLay) {
+  const test::Skin skin = [](double s, double t) {
+    const test::SkinPoint p = test::cylinderSkin(44.0)(s, t);
+    return test::SkinPoint{p.position + 0.004 * t * t * p.normal, p.normal};
+  };
+  const test::Relief relief = test::bowl(8.0, 3.0);
+  const auto foot =
+      withQuality(test::woundMesh(skin, relief, {.half_size_mm = 34.0, .noise_mm = 0.15}));
+  auto points = test::circleOn(skin, relief, 8.0, kPoints);
+  for (auto& p : points) {
+    p.x() *= 0.8;
+  }
+  const auto here = measured(foot, points);
+  ASSERT_TRUE(here);
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1.0, 2.0, 0.5),
+                                      Eigen::Vector3d(0.0, 0.0, 1.0),
+                                      Eigen::Vector3d(-2, 0.3, 1)}) {
+    Eigen::Isometry3d move(Eigen::AngleAxisd(1.9, axis.normalized()));
+    move.translation() = Eigen::Vector3d(30.0, -20.0, 400.0);
+    TexturedMesh turned = foot;
+    for (auto& v : turned.mesh.vertices) {
+      v = (move * v.cast<double>()).cast<float>();
+    }
+    turned.mesh.normals = vertexNormals(turned.mesh);
+    std::vector<Eigen::Vector3d> there_mm;
+    for (const auto& p : points) {
+      there_mm.push_back(move * p);
+    }
+    const auto there = measured(turned, there_mm);
+    ASSERT_TRUE(there);
+    // Coordinates are rounded to floats, 3e-5 mm at 400 mm.
+    EXPECT_NEAR(
+        *there->numbers.volume_mm3, *here->numbers.volume_mm3, 1e-3 * *here->numbers.volume_mm3);
+    EXPECT_NEAR(*there->numbers.p99_depth_mm, *here->numbers.p99_depth_mm, 3e-3);
+    for (const char* name : {"volume_mm3", "p99_depth_mm", "opening_area_mm2"}) {
+      const Interval a = here->numbers.intervals.at(name);
+      const Interval b = there->numbers.intervals.at(name);
+      EXPECT_NEAR(b.high - b.low, a.high - a.low, 0.02 * (a.high - a.low)) << name;
+    }
+  }
+}
+
 TEST(MeasureWound, GivesTheBedWithColoursAndDepths) {
   const test::Skin skin = test::planeSkin();
   const test::Relief relief = test::bowl(8.0, 3.0);
