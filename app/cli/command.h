@@ -29,6 +29,8 @@ CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const ch
 [[nodiscard]] std::string outputThatClashes(const CLI::App& sub);
 
 void addSimulate(CLI::App& app, Command& command);
+void addDevices(CLI::App& app, Command& command);
+void addRecord(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);
 void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);

@@ -78,6 +78,8 @@ int parseAndRun(int argc, char** argv) {
   app.require_subcommand(1);
   Command command;
   addSimulate(app, command);
+  addDevices(app, command);
+  addRecord(app, command);
   addReconstruct(app, command);
   addTexture(app, command);
   addEvaluate(app, command);

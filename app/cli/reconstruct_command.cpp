@@ -3,7 +3,7 @@
 #include "app/cli/command.h"
 #include "app/cli/print.h"
 #include "app/version.h"
-#include "reconstruction/capture/scan_folder.h"
+#include "reconstruction/capture/openni/oni_file.h"
 #include "reconstruction/capture/trajectory_file.h"
 #include "reconstruction/pipeline/model_folder.h"
 #include "reconstruction/pipeline/reconstruct.h"
@@ -71,7 +71,7 @@ Expected<nlohmann::json> reconstruct(Arguments arguments, bool print, const Job&
   }
   const CameraOverrides overrides = overridesOf(arguments.camera);
   const ScanOpener open = [&](const FrameContent& content) {
-    return openScanFolder(arguments.scan, overrides, content);
+    return openScan(arguments.scan, overrides, content);
   };
   auto reconstruction = reconstructScan(open, arguments.options, job);
   if (!reconstruction) {
@@ -96,7 +96,8 @@ void addReconstruct(CLI::App& app, Command& command) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* sub =
       addCommand(app, command, "reconstruct", "Make a coloured 3D model from a recorded scan");
-  sub->add_option("SCAN", arguments->scan, "Scan folder, or any TUM RGB-D sequence")->required();
+  sub->add_option("SCAN", arguments->scan, "Scan folder, .oni recording, or any TUM RGB-D sequence")
+      ->required();
   sub->add_option("OUT_DIR", arguments->out, "Where model.ply and the rest are written")
       ->required();
   sub->add_option("--voxel-mm", arguments->options.surface.voxel_size_mm, "Voxel size")

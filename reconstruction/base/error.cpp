@@ -111,6 +111,26 @@ constexpr std::array kEntries{
           "phantom_not_found",
           "The phantom was not found in the scan; check that it is the one named, lay it on a "
           "table with its wounds up, clear what lies around it, and scan it again from all sides."},
+    Entry{ErrorCode::CameraNotFound,
+          "camera_not_found",
+          "No such depth camera was found; plug it in, wait a few seconds, and look at the list "
+          "that `devices` prints."},
+    Entry{ErrorCode::CameraFailed,
+          "camera_failed",
+          "The camera does not give pictures; unplug it, close other programs that use it, plug it "
+          "in again (into a USB 3 socket) and try once more."},
+    Entry{ErrorCode::RecordingInvalid,
+          "recording_invalid",
+          "The recording cannot be played; give a whole .oni file with depth, or the scan folder "
+          "that was kept beside it."},
+    Entry{ErrorCode::CalibrationFailed,
+          "calibration_failed",
+          "The camera could not be calibrated from these pictures; take more views of the flat "
+          "board, near and far, tilted, and into all corners of the picture."},
+    Entry{ErrorCode::RigFailed,
+          "rig_failed",
+          "The rig does not answer as it should; check its cable, power and port, and that nothing "
+          "blocks it."},
 };
 
 const Entry& entryOf(ErrorCode code) {

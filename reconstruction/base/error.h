@@ -38,6 +38,11 @@ enum class ErrorCode {
   NoSuggestion,
   FontMissing,
   PhantomNotFound,
+  CameraNotFound,
+  CameraFailed,
+  RecordingInvalid,
+  CalibrationFailed,
+  RigFailed,
 };
 
 /// A failure the world can cause. Bugs are not Errors: they go through TARSUS_REQUIRE.

@@ -1,10 +1,9 @@
 #include "reconstruction/base/require.h"
 #include "reconstruction/capture/camera_file.h"
-#include "reconstruction/capture/device_profile.h"
 #include "reconstruction/capture/frame_list.h"
+#include "reconstruction/capture/frame_preparation.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
-#include "reconstruction/capture/undistort.h"
 
 #include <algorithm>
 #include <future>
@@ -14,35 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNearestPlausibleMm = 150.0;
-constexpr double kFarthestPlausibleMm = 2000.0;
 constexpr int kFramesLookedAt = 10;    ///< for the depth unit's plausibility
-constexpr double kEnoughDepth = 0.01;  ///< share of pixels that such a frame must have
-
-/// How far the depth can be trusted, and what makes it right.
-struct DepthFacts {
-  DepthCorrection correction;
-  Warnings doubts;
-};
 
 /// One frame as it came off the disk, with what went wrong on the way.
 struct LoadedFrame {
   std::optional<RgbdFrame> frame;
   Warnings warnings;
 };
-
-std::optional<double> medianDepth(const DepthImage& depth) {
-  std::vector<float> measured;
-  std::ranges::copy_if(
-      depth.pixels(), std::back_inserter(measured), [](float z_mm) { return z_mm > 0.0F; });
-  if (static_cast<double>(measured.size()) <
-      kEnoughDepth * static_cast<double>(depth.pixels().size())) {
-    return std::nullopt;
-  }
-  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
-  std::ranges::nth_element(measured, middle);
-  return *middle;
-}
 
 std::vector<std::size_t> wantedOf(std::size_t count, const FrameContent& content) {
   std::vector<std::size_t> wanted;
@@ -56,20 +33,15 @@ std::vector<std::size_t> wantedOf(std::size_t count, const FrameContent& content
 
 class ScanFolderSource final : public FrameSource {
  public:
-  ScanFolderSource(RgbdCamera camera,
+  ScanFolderSource(const RgbdCamera& camera,
                    const DepthFacts& facts,
                    std::vector<FrameFiles> files,
                    const FrameContent& content)
-      : camera_(std::move(camera)),
-        correction_(facts.correction),
+      : preparation_(camera, facts.correction),
         files_(std::move(files)),
         with_color_(content.color),
         wanted_(wantedOf(files_.size(), content)),
-        depth_undistorter_(camera_.depth),
-        color_undistorter_(camera_.color),
         warnings_(facts.doubts) {
-    camera_.depth.distortion = {};
-    camera_.color.distortion = {};
     startLoading();
   }
   ~ScanFolderSource() override = default;
@@ -78,7 +50,7 @@ class ScanFolderSource final : public FrameSource {
   ScanFolderSource(ScanFolderSource&&) = delete;
   ScanFolderSource& operator=(ScanFolderSource&&) = delete;
 
-  [[nodiscard]] const RgbdCamera& camera() const override { return camera_; }
+  [[nodiscard]] const RgbdCamera& camera() const override { return preparation_.camera(); }
   [[nodiscard]] std::optional<int> frameCount() const override {
     return static_cast<int>(wanted_.size());
   }
@@ -108,9 +80,9 @@ class ScanFolderSource final : public FrameSource {
   [[nodiscard]] LoadedFrame load(std::size_t i) const {
     LoadedFrame loaded;
     const FrameFiles& files = files_[i];
-    auto depth = readDepthImage(files.depth, camera_.depth_units_per_m);
+    auto depth = readDepthImage(files.depth, camera().depth_units_per_m);
     if (depth &&
-        (depth->width() != camera_.depth.width || depth->height() != camera_.depth.height)) {
+        (depth->width() != camera().depth.width || depth->height() != camera().depth.height)) {
       depth = fail(ErrorCode::FileUnreadable,
                    files.depth.string() + " has another size than the camera");
     }
@@ -121,7 +93,7 @@ class ScanFolderSource final : public FrameSource {
     RgbdFrame frame{
         .index = static_cast<int>(i),
         .timestamp = files.timestamp,
-        .depth = corrected(depth_undistorter_.apply(std::move(*depth)), correction_, camera_.depth),
+        .depth = preparation_.depth(std::move(*depth)),
         .color = {}};
     if (with_color_) {
       loadColor(files, frame, loaded.warnings);
@@ -137,24 +109,21 @@ class ScanFolderSource final : public FrameSource {
     }
     auto color = readColorImage(files.color);
     if (color &&
-        (color->width() != camera_.color.width || color->height() != camera_.color.height)) {
+        (color->width() != camera().color.width || color->height() != camera().color.height)) {
       color = fail(ErrorCode::FileUnreadable,
                    files.color.string() + " has another size than the camera");
     }
     if (color) {
-      frame.color = color_undistorter_.apply(std::move(*color));
+      frame.color = preparation_.color(std::move(*color));
     } else {
       warnings.push_back({"color_missing", describe(color.error())});
     }
   }
 
-  RgbdCamera camera_;
-  DepthCorrection correction_;
+  FramePreparation preparation_;
   std::vector<FrameFiles> files_;
   bool with_color_;
   std::vector<std::size_t> wanted_;  ///< indices of files, ascending
-  Undistorter depth_undistorter_;
-  Undistorter color_undistorter_;
   Warnings warnings_;
   std::size_t next_ = 0;              ///< of wanted_
   std::future<LoadedFrame> loading_;  ///< last, so that it ends before what it reads goes
@@ -167,27 +136,6 @@ RgbdCamera cameraByHand(const CameraOverrides& overrides, const DepthImage& dept
   camera.depth.height = depth.height();
   camera.depth_units_per_m = *overrides.depth_units_per_m;
   return camera;
-}
-
-Expected<void> apply(const CameraOverrides& overrides, RgbdCamera& camera) {
-  if (overrides.depth_units_per_m) {
-    camera.depth_units_per_m = *overrides.depth_units_per_m;
-  }
-  if (overrides.intrinsics) {
-    const auto& given = *overrides.intrinsics;
-    camera.depth.fx_px = given.fx_px;
-    camera.depth.fy_px = given.fy_px;
-    camera.depth.cx_px = given.cx_px;
-    camera.depth.cy_px = given.cy_px;
-    camera.depth.distortion = {};
-    camera.color = camera.depth;
-    camera.color_from_depth = RigidTransform::Identity();
-  }
-  const bool usable =
-      camera.depth_units_per_m > 0.0 && camera.depth.fx_px > 0.0 && camera.depth.fy_px > 0.0;
-  return usable ? Expected<void>()
-                : fail(ErrorCode::CameraFactsInvalid,
-                       "--intrinsics and --depth-scale must be greater than 0");
 }
 
 /// The first depth image that can be read, whatever its unit.
@@ -220,32 +168,12 @@ Expected<std::optional<double>> plausibleMedian(const std::vector<FrameFiles>& f
     if (!median_mm) {
       continue;
     }
-    if (*median_mm < kNearestPlausibleMm || *median_mm > kFarthestPlausibleMm) {
-      return fail(ErrorCode::DepthUnitImplausible,
-                  "the median depth would be " + std::to_string(*median_mm / 1000.0) + " m with " +
-                      std::to_string(camera.depth_units_per_m) + " units per metre");
+    if (auto checked = checkMedianDepth(*median_mm, camera.depth_units_per_m); !checked) {
+      return tl::unexpected(checked.error());
     }
     return median_mm;
   }
   return std::nullopt;
-}
-
-/// @errors those of readScanFacts
-Expected<DepthFacts> depthFacts(const fs::path& camera_file,
-                                const std::string& model,
-                                std::optional<double> median_mm) {
-  std::error_code ignored;
-  const auto said =
-      fs::exists(camera_file, ignored) ? readScanFacts(camera_file) : Expected<ScanFacts>();
-  if (!said) {
-    return tl::unexpected(said.error());
-  }
-  const std::vector<DeviceProfile> profiles = deviceProfiles();
-  const DeviceProfile* profile = profileOf(model, profiles);
-  const DepthCorrection usual = profile != nullptr ? profile->correction : DepthCorrection{};
-  return DepthFacts{
-      .correction = said->depth_correction.value_or(usual),
-      .doubts = doubtsAboutDepth(model, profile, median_mm, said->seconds_since_power_on)};
 }
 
 Expected<RgbdCamera> cameraOf(const fs::path& folder,
@@ -304,7 +232,7 @@ Expected<std::unique_ptr<FrameSource>> openScanFolder(const fs::path& folder,
   if (!facts) {
     return tl::unexpected(facts.error());
   }
-  return std::make_unique<ScanFolderSource>(std::move(*camera), *facts, std::move(*files), content);
+  return std::make_unique<ScanFolderSource>(*camera, *facts, std::move(*files), content);
 }
 
 }  // namespace tarsus

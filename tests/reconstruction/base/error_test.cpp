@@ -39,6 +39,11 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::ScoreInputInvalid:
     case ErrorCode::NoSuggestion:
     case ErrorCode::PhantomNotFound:
+    case ErrorCode::CameraNotFound:
+    case ErrorCode::CameraFailed:
+    case ErrorCode::RecordingInvalid:
+    case ErrorCode::CalibrationFailed:
+    case ErrorCode::RigFailed:
     case ErrorCode::FontMissing:
       return true;
   }

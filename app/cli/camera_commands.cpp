@@ -1,0 +1,206 @@
+#include "app/cli/command.h"
+#include "reconstruction/capture/openni/oni_file.h"
+#include "reconstruction/capture/openni/openni_camera.h"
+#include "reconstruction/capture/openni/openni_library.h"
+#include "reconstruction/capture/scan_recorder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json toJson(const Warnings& warnings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Warning& warning : warnings) {
+    list.push_back({{"code", warning.code}, {"text", warning.text}});
+  }
+  return list;
+}
+
+Expected<nlohmann::json> printCameras(bool print) {
+  const auto cameras = listCameras();
+  if (!cameras) {
+    return tl::unexpected(cameras.error());
+  }
+  nlohmann::json list = nlohmann::json::array();
+  for (const CameraInfo& c : *cameras) {
+    list.push_back({{"uri", c.uri},
+                    {"vendor", c.vendor},
+                    {"name", c.name},
+                    {"profile", c.profile},
+                    {"simulated", c.simulated}});
+    if (print) {
+      std::printf("%s\n  %s %s%s\n",
+                  c.uri.c_str(),
+                  c.vendor.c_str(),
+                  c.name.c_str(),
+                  c.profile.empty() && !c.simulated ? " (not known to this program)" : "");
+    }
+  }
+  if (print && cameras->empty()) {
+    std::printf(
+        "No depth camera is plugged in. A recorded scan can stand for one: "
+        "--simulated SCAN.\n");
+  }
+  return nlohmann::json{{"cameras", list}};
+}
+
+struct RecordArguments {
+  fs::path out;
+  std::string device;
+  fs::path simulated;
+  double seconds = 20.0;
+};
+
+/// Where the frames go while they come: the folder that is asked for, or one beside the recording.
+fs::path folderFor(const fs::path& out) {
+  return out.extension() == ".oni" ? fs::path(out.string() + ".scan") : out;
+}
+
+/// Until the time is over, the camera fails for good, the disk is full, or Ctrl-C.
+Expected<void> recordFrames(OpenNiCamera& camera,
+                            ScanRecorder& recorder,
+                            double seconds,
+                            const Job& job) {
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  constexpr auto kWithout = std::chrono::seconds(10);  // to plug a camera in again
+  std::optional<std::chrono::microseconds> first;
+  std::atomic<std::int64_t> passed_us = 0;
+  const auto wanted_us = static_cast<std::int64_t>(1e6 * seconds);
+  const auto half_us = static_cast<std::int64_t>(0.5e6 / camera.camera().frames_per_s);
+  auto started = camera.start([&](RgbdFrame frame) {
+    first = first.value_or(frame.timestamp);
+    const std::int64_t at_us = (frame.timestamp - *first).count();
+    if (at_us < wanted_us - half_us) {
+      recorder.add(std::move(frame));
+    }
+    passed_us = at_us;
+  });
+  if (!started) {
+    return started;
+  }
+  auto seen = std::chrono::steady_clock::now();
+  std::int64_t before_us = -1;
+  while (passed_us < wanted_us - half_us && !job.stopped() && !recorder.failure()) {
+    std::this_thread::sleep_for(kLook);
+    const auto now = std::chrono::steady_clock::now();
+    if (passed_us != before_us) {
+      seen = now;
+      before_us = passed_us;
+    }
+    if (now - seen > kWithout) {
+      camera.stop();
+      return fail(ErrorCode::CameraFailed, "no frame came for 10 s");
+    }
+    const bool gone = camera.state() == CameraState::Unplugged;
+    job.report(gone ? "camera unplugged" : "record",
+               static_cast<double>(passed_us) / static_cast<double>(wanted_us));
+  }
+  camera.stop();
+  return {};
+}
+
+Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, const Job& job) {
+  const std::string uri =
+      arguments.simulated.empty() ? arguments.device : simulatedUri(arguments.simulated.string());
+  auto camera = OpenNiCamera::open(uri);
+  if (!camera) {
+    return tl::unexpected(camera.error());
+  }
+  const fs::path folder = folderFor(arguments.out);
+  auto recorder = ScanRecorder::create(folder, (*camera)->camera(), arguments.seconds);
+  if (!recorder) {
+    return tl::unexpected(recorder.error());
+  }
+  const auto recorded = recordFrames(**camera, **recorder, arguments.seconds, job);
+  auto finished = (*recorder)->finish();
+  const RecorderCounts kept = (*recorder)->counts();
+  if (!recorded || !finished) {
+    const Error& why = !recorded ? recorded.error() : finished.error();
+    return fail(why.code,
+                why.detail + "; the first " + std::to_string(kept.written) +
+                    " frames are kept in " + folder.string());
+  }
+  const CaptureCounts counts = (*camera)->counts();
+  if (kept.written == 0) {
+    return fail(ErrorCode::ScanEmpty, "the camera gave no frame");
+  }
+  if (folder != arguments.out) {
+    Job to_the_end = job;
+    to_the_end.stop = {};  // Ctrl-C ends the recording, not what is made of it
+    if (auto written = writeOniRecording(folder, arguments.out, to_the_end); !written) {
+      return fail(written.error().code,
+                  written.error().detail + "; the frames are kept in " + folder.string());
+    }
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+  const int dropped = counts.dropped + kept.dropped;
+  if (print) {
+    std::printf("Wrote %s: %d frames, %.0f MB; %d dropped, %d without colour\n",
+                arguments.out.c_str(),
+                kept.written,
+                kept.megabytes,
+                dropped,
+                counts.unpaired);
+    for (const Warning& warning : (*camera)->warnings()) {
+      std::printf("  %s\n", warning.text.c_str());
+    }
+  }
+  return nlohmann::json{{"frames", kept.written},
+                        {"dropped", dropped},
+                        {"unpaired", counts.unpaired},
+                        {"times_unplugged", counts.unplugged},
+                        {"megabytes", kept.megabytes},
+                        {"warnings", toJson((*camera)->warnings())}};
+}
+
+}  // namespace
+
+void addDevices(CLI::App& app, Command& command) {
+  auto simulated = std::make_shared<fs::path>();
+  CLI::App* sub = addCommand(app, command, "devices", "List the depth cameras that are plugged in");
+  sub->add_option("--simulated", *simulated, "A recorded scan that stands for a camera")
+      ->type_name("SCAN");
+  sub->callback([&command, simulated] {
+    command.run = [&command, simulated](const Job& /*job*/) {
+      if (!simulated->empty()) {
+        announceSimulatedCamera(simulated->string());
+      }
+      return printCameras(!command.quiet && command.json_file != "-");
+    };
+  });
+}
+
+void addRecord(CLI::App& app, Command& command) {
+  auto arguments = std::make_shared<RecordArguments>();
+  CLI::App* sub = addCommand(app, command, "record", "Record a scan from a depth camera");
+  sub->add_option("OUT", arguments->out, "The recording (.oni) or scan folder to write")
+      ->required();
+  auto* device =
+      sub->add_option("--device", arguments->device, "Which camera, as `devices` names it")
+          ->type_name("URI");
+  sub->add_option("--simulated", arguments->simulated, "A recorded scan that stands for a camera")
+      ->type_name("SCAN")
+      ->excludes(device);
+  sub->add_option("--seconds", arguments->seconds, "How long; Ctrl-C ends it earlier")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  sub->callback([&command, arguments] {
+    command.run = [&command, arguments](const Job& job) {
+      return record(*arguments, !command.quiet && command.json_file != "-", job);
+    };
+  });
+}
+
+}  // namespace tarsus

@@ -1,0 +1,88 @@
+// `devices`, `record` and `reconstruct x.oni` against the simulated camera, through OpenNI2 itself.
+#include "tests/app/cli_run.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytesOf(const fs::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+class CliRecord : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    const CliRun run = cli("simulate " + file("foot") + " --foot heel --frames 120 --quiet");
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  static std::string file(const std::string& name) { return (folder_->path() / name).string(); }
+  static nlohmann::json readJson(const std::string& name) {
+    return nlohmann::json::parse(std::ifstream(file(name)), nullptr, false);
+  }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+};
+
+TEST_F(CliRecord, ListsTheSimulatedCamera) {
+  const CliRun run =
+      cli("devices --simulated " + file("foot") + " --quiet --json " + file("devices.json"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  bool found = false;
+  const auto list = readJson("devices.json");
+  for (const auto& camera : list.at("cameras")) {
+    found = found || camera.at("simulated") == true;
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(CliRecord, RecordsWhatReconstructsToTheSameBitsAsItsFolder) {
+  ASSERT_EQ(cli("record " + file("visit.oni") + " --simulated " + file("foot") +
+                " --seconds 20 --quiet --json " + file("record.json"))
+                .exit_code,
+            0);
+  const auto recorded = readJson("record.json");
+  EXPECT_EQ(recorded.at("frames"), 120);
+  EXPECT_EQ(recorded.at("dropped"), 0);
+  EXPECT_EQ(recorded.at("unpaired"), 0);
+  EXPECT_TRUE(fs::exists(file("visit.oni.json")));
+  EXPECT_FALSE(fs::exists(file("visit.oni.scan")));
+  for (const char* scan : {"visit.oni", "foot"}) {
+    const CliRun run = cli("reconstruct " + file(scan) + " " + file(std::string(scan) + "-model") +
+                           " --no-texture --quiet");
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+  }
+  const std::string model = bytesOf(file("visit.oni-model/model.ply"));
+  EXPECT_GT(model.size(), 100000U);
+  EXPECT_TRUE(model == bytesOf(file("foot-model/model.ply")));
+  EXPECT_EQ(bytesOf(file("visit.oni-model/trajectory.txt")),
+            bytesOf(file("foot-model/trajectory.txt")));
+}
+
+TEST_F(CliRecord, SaysWhereNoCameraIs) {
+  for (const std::string& camera :
+       {std::string("--device usb://1/2"), "--simulated " + file("nowhere")}) {
+    const CliRun run = cli("record " + file("none.oni") + " " + camera + " --seconds 1");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_NE(run.output.find("No such depth camera"), std::string::npos) << run.output;
+    EXPECT_FALSE(fs::exists(file("none.oni")));
+    EXPECT_FALSE(fs::exists(file("none.oni.scan")));
+  }
+}
+
+}  // namespace
+}  // namespace tarsus
