@@ -111,6 +111,11 @@ constexpr std::array kEntries{
           "phantom_not_found",
           "The phantom was not found in the scan; check that it is the one named, lay it on a "
           "table with its wounds up, clear what lies around it, and scan it again from all sides."},
+    Entry{ErrorCode::CalibrationFailed,
+          "calibration_failed",
+          "The camera could not be calibrated from these pictures; take at least 8, better 20, "
+          "sharp views of the whole flat chessboard, tilted by 20 to 45 degrees, at 300 to 600 mm, "
+          "also at the edges of the picture."},
 };
 
 const Entry& entryOf(ErrorCode code) {

@@ -38,6 +38,7 @@ enum class ErrorCode {
   NoSuggestion,
   FontMissing,
   PhantomNotFound,
+  CalibrationFailed,
 };
 
 /// A failure the world can cause. Bugs are not Errors: they go through TARSUS_REQUIRE.

@@ -39,6 +39,7 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::ScoreInputInvalid:
     case ErrorCode::NoSuggestion:
     case ErrorCode::PhantomNotFound:
+    case ErrorCode::CalibrationFailed:
     case ErrorCode::FontMissing:
       return true;
   }
