@@ -28,8 +28,16 @@ Eigen::Vector3d trueRay(const Intrinsics& k, double u, double v) {
   return {x, y, 1.0};
 }
 
+/// +1 and -1 in turn from square to square, averaged over a width (both in squares).
+double wave(double place, double width) {
+  const double edge = std::round(place);
+  const double sign = static_cast<long>(edge) % 2 == 0 ? 1.0 : -1.0;
+  return sign * std::clamp((place - edge) / (0.5 * width), -1.0, 1.0);
+}
+
 /// Brightness of the board's plane; beyond the paper (one square wide) a grey wall.
-double brightness(const Chessboard& board, const Eigen::Vector3d& p) {
+/// @param width_mm  what one sample covers: averaged, or edges along a row of pixels would jump
+double brightness(const Chessboard& board, const Eigen::Vector3d& p, double width_mm) {
   const double column = p.x() / board.square_mm;
   const double row = p.y() / board.square_mm;
   const double margin = 0.4;
@@ -40,8 +48,8 @@ double brightness(const Chessboard& board, const Eigen::Vector3d& p) {
   if (column < -1 || row < -1 || column > board.columns || row > board.rows) {
     return 215.0;
   }
-  const int parity = static_cast<int>(std::floor(column)) + static_cast<int>(std::floor(row));
-  return parity % 2 == 0 ? 35.0 : 215.0;
+  const double width = width_mm / board.square_mm;
+  return 125.0 - 90.0 * wave(column, width) * wave(row, width);
 }
 
 double planeDepth(const RigidTransform& camera_from_board, const Eigen::Vector3d& ray) {
@@ -65,12 +73,15 @@ Image<double> rendered(const Chessboard& board,
                        const Image<Eigen::Vector2d>& rays,
                        const RigidTransform& camera_from_board) {
   const RigidTransform board_from_camera = camera_from_board.inverse();
+  const double step = rays.at(rays.width() / 2, 0).x() - rays.at(rays.width() / 2 - 1, 0).x();
   Image<double> image(rays.width() / kSamples, rays.height() / kSamples);
   for (int v = 0; v < rays.height(); ++v) {
     for (int u = 0; u < rays.width(); ++u) {
       const Eigen::Vector3d ray = rays.at(u, v).homogeneous();
-      const Eigen::Vector3d p = board_from_camera * (planeDepth(camera_from_board, ray) * ray);
-      image.at(u / kSamples, v / kSamples) += brightness(board, p) / (kSamples * kSamples);
+      const double z_mm = planeDepth(camera_from_board, ray);
+      const double width_mm = z_mm * step;
+      image.at(u / kSamples, v / kSamples) +=
+          brightness(board, board_from_camera * (z_mm * ray), width_mm) / (kSamples * kSamples);
     }
   }
   return image;
@@ -107,10 +118,9 @@ ColorImage colorOf(const BoardScene& scene,
   const Image<double> image = blurred(rendered(scene.board, rays, pose));
   ColorImage color(image.width(), image.height());
   for (std::size_t i = 0; i < image.pixels().size(); ++i) {
-    const auto at = [&](std::uint64_t channel) {
-      return level(image.pixels()[i], scene.grey_noise, randomBits(stream(seed, channel), i));
-    };
-    color.pixels()[i] = {.r = at(1), .g = at(2), .b = at(3)};
+    const std::uint8_t grey =
+        level(image.pixels()[i], scene.grey_noise, randomBits(stream(seed, 1), i));
+    color.pixels()[i] = {.r = grey, .g = grey, .b = grey};
   }
   return color;
 }
@@ -212,8 +222,8 @@ BoardScene usualScene() {
                         .distortion = {0.11, -0.23, 0.0009, -0.0006, 0.0}};
   scene.camera.depth = {.width = 480,
                         .height = 360,
-                        .fx_px = 355.7,
-                        .fy_px = 355.1,
+                        .fx_px = 425.7,
+                        .fy_px = 425.1,
                         .cx_px = 236.4,
                         .cy_px = 183.9,
                         .distortion = {-0.13, 0.06, -0.0004, 0.0007, 0.0}};
@@ -253,6 +263,13 @@ std::vector<RigidTransform> usualPlaces(const BoardScene& scene, int count, std:
     const Eigen::Vector3d middle(
         reach * (2.0 * uniform(2) - 1.0) - 10.0, reach * (1.4 * uniform(3) - 0.7), z_mm);
     places.push_back(placeAt(scene, middle, tilt * std::cos(side), tilt * std::sin(side)));
+    // Nobody holds a board quite upright.
+    const double roll = 0.3 * (2.0 * uniform(4) - 1.0);
+    const Eigen::Vector3d half(0.5 * (scene.board.columns - 1) * scene.board.square_mm,
+                               0.5 * (scene.board.rows - 1) * scene.board.square_mm,
+                               0.0);
+    places.back() = places.back() * Eigen::Translation3d(half) *
+                    Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-half);
   }
   return places;
 }
