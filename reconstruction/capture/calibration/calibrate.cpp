@@ -42,7 +42,7 @@ Expected<Found> findBoards(const CalibrationCapture& capture,
     }
     job.report("chessboard", static_cast<double>(first) / count);
     parallelFor(std::min(kBatch, count - first), [&](int i) {
-      const auto at = static_cast<std::size_t>(first + i);
+      const std::size_t at = static_cast<std::size_t>(first) + static_cast<std::size_t>(i);
       found.color[at] = findCorners(capture.views[at].color, options.board);
       found.infrared[at] = findCorners(capture.views[at].infrared, options.board);
       alignOrder(capture, found.color[at], found.infrared[at]);

@@ -49,6 +49,7 @@ void collect(const fs::path& folder,
 
 std::vector<ViewFiles> evenly(const std::map<std::string, ViewFiles>& views, Warnings& warnings) {
   std::vector<ViewFiles> all;
+  all.reserve(views.size());
   for (const auto& [name, view] : views) {
     all.push_back(view);
   }

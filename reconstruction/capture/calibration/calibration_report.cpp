@@ -7,7 +7,7 @@
 namespace tarsus {
 namespace {
 
-constexpr int kFields = 5;               ///< coverage is counted on 5 x 5 fields
+constexpr std::size_t kFields = 5;       ///< coverage is counted on 5 x 5 fields
 constexpr double kOuterPart = 0.2;       ///< of the image, where a corner must have been seen
 constexpr double kLargeRms_px = 0.5;     ///< our choice: a good board gives 0.1
 constexpr double kFocalTarget = 0.0015;  ///< relative: 0.3 % is then two standard deviations
@@ -52,6 +52,11 @@ struct CameraOf {
   const char* name;
 };
 
+/// @param place  share of the image's width or height
+std::size_t fieldOf(double place) {
+  return std::min(static_cast<std::size_t>(std::max(place, 0.0) * double{kFields}), kFields - 1);
+}
+
 void warnOfCoverage(const CameraOf& camera, CameraFit& fit, Warnings& warnings) {
   std::array<bool, kFields * kFields> seen{};
   bool left = false, right = false, top = false, bottom = false;
@@ -59,16 +64,17 @@ void warnOfCoverage(const CameraOf& camera, CameraFit& fit, Warnings& warnings) 
     for (const Eigen::Vector2d& corner : corners) {
       const double x = (corner.x() + 0.5) / camera.size.width;
       const double y = (corner.y() + 0.5) / camera.size.height;
-      const int column = std::clamp(static_cast<int>(x * kFields), 0, kFields - 1);
-      const int row = std::clamp(static_cast<int>(y * kFields), 0, kFields - 1);
-      seen[static_cast<std::size_t>(row * kFields + column)] = true;
+      const std::size_t column = fieldOf(x);
+      const std::size_t row = fieldOf(y);
+      seen[row * kFields + column] = true;
       left = left || x < kOuterPart;
       right = right || x > 1.0 - kOuterPart;
       top = top || y < kOuterPart;
       bottom = bottom || y > 1.0 - kOuterPart;
     }
   }
-  fit.coverage = static_cast<double>(std::ranges::count(seen, true)) / (kFields * kFields);
+  fit.coverage =
+      static_cast<double>(std::ranges::count(seen, true)) / static_cast<double>(seen.size());
   std::string sides;
   for (const auto& [reached, side] : {std::pair{left, "left"},
                                       std::pair{right, "right"},

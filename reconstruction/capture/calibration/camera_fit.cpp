@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tarsus {
 namespace {
@@ -126,20 +125,18 @@ SingleCameraFit byView(const Solution& solution,
   return fit;
 }
 
-tl::unexpected<Error> undetermined(double turn_rad) {
-  char text[300];
-  std::snprintf(text,
-                sizeof text,
-                "the views leave the focal length open: the boards are tilted against each other "
-                "by %.0f degrees at the most; tilt the board by 20 to 45 degrees to the left, "
-                "right, up and down, at several distances",
-                turn_rad * 180.0 / 3.14159265358979);
-  return fail(ErrorCode::CalibrationFailed, text);
+/// No angle is told: where the focal length is open, the tilts that come with it mean nothing.
+tl::unexpected<Error> undetermined() {
+  return fail(ErrorCode::CalibrationFailed,
+              "the views leave the focal length open, as boards that are all nearly parallel do at "
+              "whatever distances; tilt the board by 20 to 45 degrees to the left, right, up and "
+              "down");
 }
 
 std::vector<const Corners*> chosen(const std::vector<Corners>& corners,
                                    const std::vector<std::size_t>& used) {
   std::vector<const Corners*> result;
+  result.reserve(used.size());
   for (const std::size_t view : used) {
     result.push_back(&corners[view]);
   }
@@ -195,7 +192,7 @@ Expected<SingleCameraFit> fitCamera(const std::vector<Corners>& corners,
   while (static_cast<int>(used.size()) >= options.least_views) {
     const auto solution = solve(chosen(corners, used), options.board, {width, height}, false);
     if (!solution) {
-      return undetermined(0.0);
+      return undetermined();
     }
     SingleCameraFit fit = byView(*solution, used, corners, options.board);
     if (const auto worst = outlier(fit.rms_px)) {
@@ -207,7 +204,7 @@ Expected<SingleCameraFit> fitCamera(const std::vector<Corners>& corners,
     if (turn_rad < kLeastTurn_rad ||
         solution->deviation[0] > kMostFocalDeviation * solution->lens[0] ||
         solution->deviation[1] > kMostFocalDeviation * solution->lens[1]) {
-      return undetermined(turn_rad);
+      return undetermined();
     }
     const auto finer = solve(chosen(corners, used), options.board, {width, height}, true);
     if (finer && std::abs(finer->lens[8]) > kSignificant_deviations * finer->deviation[8]) {

@@ -68,6 +68,7 @@ std::vector<Pixel> boardPixels(const DepthView& view,
 /// Keeps what lies near the plane once the median ratio is taken out; returns that ratio.
 double gate(std::vector<Pixel>& pixels) {
   std::vector<double> ratios;
+  ratios.reserve(pixels.size());
   for (const Pixel& pixel : pixels) {
     ratios.push_back(pixel.true_mm / pixel.measured_mm);
   }
@@ -89,11 +90,12 @@ std::vector<DepthSample> byField(const std::vector<Pixel>& pixels,
     DepthSample sample;
     int count = 0;
   };
-  const int columns = directions.width() / kField_px + 1;
-  const int rows = directions.height() / kField_px + 1;
-  std::vector<Sum> sums(static_cast<std::size_t>(columns * rows));
+  const auto field = [](int pixel) { return static_cast<std::size_t>(pixel / kField_px); };
+  const std::size_t columns = field(directions.width()) + 1;
+  const std::size_t rows = field(directions.height()) + 1;
+  std::vector<Sum> sums(columns * rows);
   for (const Pixel& pixel : pixels) {
-    Sum& sum = sums[static_cast<std::size_t>(pixel.v / kField_px * columns + pixel.u / kField_px)];
+    Sum& sum = sums[field(pixel.v) * columns + field(pixel.u)];
     sum.sample.x += directions.at(pixel.u, pixel.v).x();
     sum.sample.y += directions.at(pixel.u, pixel.v).y();
     sum.sample.measured_mm += pixel.measured_mm;

@@ -219,6 +219,7 @@ bool fillDeviations(Adjustment& adjustment, const ceres::Solver::Summary& summar
     blocks.push_back(adjustment.color_from_depth.data());
   }
   std::vector<std::pair<const double*, const double*>> pairs;
+  pairs.reserve(blocks.size());
   for (const double* block : blocks) {
     pairs.emplace_back(block, block);
   }
