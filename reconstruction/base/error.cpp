@@ -125,8 +125,9 @@ constexpr std::array kEntries{
           "that was kept beside it."},
     Entry{ErrorCode::CalibrationFailed,
           "calibration_failed",
-          "The camera could not be calibrated from these pictures; take more views of the flat "
-          "board, near and far, tilted, and into all corners of the picture."},
+          "The camera could not be calibrated from these pictures; take at least 8, better 20, "
+          "sharp views of the whole flat chessboard, tilted by 20 to 45 degrees, at 300 to 600 mm, "
+          "also at the edges of the picture."},
     Entry{ErrorCode::RigFailed,
           "rig_failed",
           "The rig does not answer as it should; check its cable, power and port, and that nothing "

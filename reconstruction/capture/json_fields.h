@@ -24,4 +24,11 @@ struct InvalidField {
 [[nodiscard]] DepthCorrection depthCorrectionField(const nlohmann::json& object,
                                                    const std::string& key);
 
+/// The fields of camera.json (design.md section 3); others are ignored.
+[[nodiscard]] RgbdCamera cameraFields(const nlohmann::json& object);
+
+[[nodiscard]] nlohmann::json intrinsicsJson(const Intrinsics& intrinsics);
+[[nodiscard]] nlohmann::json cameraJson(const RgbdCamera& camera);
+[[nodiscard]] nlohmann::json depthCorrectionJson(const DepthCorrection& correction);
+
 }  // namespace tarsus
