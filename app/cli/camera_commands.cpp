@@ -1,4 +1,5 @@
 #include "app/cli/command.h"
+#include "reconstruction/capture/calibration/calibration_profile.h"
 #include "reconstruction/capture/openni/oni_file.h"
 #include "reconstruction/capture/openni/openni_camera.h"
 #include "reconstruction/capture/openni/openni_library.h"
@@ -59,8 +60,46 @@ struct RecordArguments {
   fs::path out;
   std::string device;
   fs::path simulated;
+  fs::path calibration;  ///< a profile, or a folder of them; empty: none
   double seconds = 20.0;
 };
+
+/// The camera as it will be written, by its calibration where there is one.
+struct KnownCamera {
+  RgbdCamera camera;
+  ScanFacts facts;
+  Warnings warnings;
+};
+
+/// @errors those of readCalibration
+Expected<KnownCamera> knownCamera(const OpenNiCamera& source, const fs::path& calibration) {
+  KnownCamera known{.camera = source.camera(), .facts = {}, .warnings = source.warnings()};
+  if (calibration.empty()) {
+    return known;
+  }
+  std::optional<CalibrationProfile> profile;
+  std::error_code ignored;
+  if (fs::is_directory(calibration, ignored)) {
+    FoundCalibration found = newestCalibration(calibration, known.camera.serial);
+    profile = std::move(found.profile);
+    known.warnings = std::move(found.warnings);
+  } else {
+    auto read = readCalibration(calibration);
+    if (!read) {
+      return tl::unexpected(read.error());
+    }
+    profile = std::move(*read);
+    known.warnings.clear();
+  }
+  const Warnings doubts =
+      doubtsAboutCalibration(profile ? &*profile : nullptr, known.camera, todayUtc());
+  known.warnings.insert(known.warnings.end(), doubts.begin(), doubts.end());
+  if (profile) {
+    known.camera = calibrated(known.camera, *profile);
+    known.facts.depth_correction = profile->depth_correction;
+  }
+  return known;
+}
 
 /// Where the frames go while they come: the folder that is asked for, or one beside the recording.
 fs::path folderFor(const fs::path& out) {
@@ -118,7 +157,12 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
     return tl::unexpected(camera.error());
   }
   const fs::path folder = folderFor(arguments.out);
-  auto recorder = ScanRecorder::create(folder, (*camera)->camera(), arguments.seconds);
+  const auto known = knownCamera(**camera, arguments.calibration);
+  if (!known) {
+    return tl::unexpected(known.error());
+  }
+  auto recorder =
+      ScanRecorder::create(folder, known->camera, arguments.seconds, {.facts = known->facts});
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
@@ -153,7 +197,7 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
                 kept.megabytes,
                 dropped,
                 counts.unpaired);
-    for (const Warning& warning : (*camera)->warnings()) {
+    for (const Warning& warning : known->warnings) {
       std::printf("  %s\n", warning.text.c_str());
     }
   }
@@ -162,7 +206,7 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
                         {"unpaired", counts.unpaired},
                         {"times_unplugged", counts.unplugged},
                         {"megabytes", kept.megabytes},
-                        {"warnings", toJson((*camera)->warnings())}};
+                        {"warnings", toJson(known->warnings)}};
 }
 
 }  // namespace
@@ -193,6 +237,10 @@ void addRecord(CLI::App& app, Command& command) {
   sub->add_option("--simulated", arguments->simulated, "A recorded scan that stands for a camera")
       ->type_name("SCAN")
       ->excludes(device);
+  sub->add_option("--calibration",
+                  arguments->calibration,
+                  "What `calibrate` wrote, or a folder of it: the camera's newest is taken")
+      ->type_name("FILE");
   sub->add_option("--seconds", arguments->seconds, "How long; Ctrl-C ends it earlier")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();

@@ -29,6 +29,10 @@ CLI::App* addCommand(CLI::App& app, Command& command, const char* name, const ch
 [[nodiscard]] std::string outputThatClashes(const CLI::App& sub);
 
 void addSimulate(CLI::App& app, Command& command);
+/// ISO 8601, from the clock.
+[[nodiscard]] std::string todayUtc();
+
+void addCalibrate(CLI::App& app, Command& command);
 void addDevices(CLI::App& app, Command& command);
 void addRecord(CLI::App& app, Command& command);
 void addReconstruct(CLI::App& app, Command& command);

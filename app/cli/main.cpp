@@ -78,6 +78,7 @@ int parseAndRun(int argc, char** argv) {
   app.require_subcommand(1);
   Command command;
   addSimulate(app, command);
+  addCalibrate(app, command);
   addDevices(app, command);
   addRecord(app, command);
   addReconstruct(app, command);

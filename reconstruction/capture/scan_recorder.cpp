@@ -1,7 +1,6 @@
 #include "reconstruction/capture/scan_recorder.h"
 
 #include "reconstruction/base/atomic_file.h"
-#include "reconstruction/capture/camera_file.h"
 #include "reconstruction/capture/image_file.h"
 
 #include <array>
@@ -162,7 +161,7 @@ Expected<std::unique_ptr<ScanRecorder>> ScanRecorder::create(const fs::path& fol
   state->folder = folder;
   state->camera = camera;
   state->options = options;
-  if (auto written = writeCamera(folder / "camera.json", camera); !written) {
+  if (auto written = writeCamera(folder / "camera.json", camera, options.facts); !written) {
     return tl::unexpected(written.error());
   }
   const double needed_mb = megabytesPerFrame(camera) * camera.frames_per_s * expected_s;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reconstruction/base/error.h"
+#include "reconstruction/capture/camera_file.h"
 #include "reconstruction/scene/frame.h"
 
 #include <filesystem>
@@ -13,6 +14,7 @@ struct RecorderOptions {
   int most_waiting = 45;               ///< frames in memory (2 MB each) before one is dropped
   double least_free_mb = 500.0;        ///< recording ends before the disk is fuller than that
   std::optional<double> free_mb = {};  ///< instead of the disk's, for tests
+  ScanFacts facts = {};                ///< of the scan, beyond its camera
 };
 
 struct RecorderCounts {

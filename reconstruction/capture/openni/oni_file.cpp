@@ -8,6 +8,8 @@
 #include "reconstruction/capture/openni/openni_library.h"
 #include "reconstruction/capture/openni/simulated_camera/address.h"
 
+#include <OpenNI.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <deque>

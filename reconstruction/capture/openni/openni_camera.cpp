@@ -4,14 +4,18 @@
 #include "reconstruction/capture/openni/openni_frames.h"
 #include "reconstruction/capture/openni/openni_library.h"
 
+#include <OpenNI.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdint>
+#include <cstdlib>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 namespace tarsus {
 namespace {
@@ -63,6 +67,28 @@ class PlugListener final : public openni::OpenNI::DeviceConnectedListener,
   std::string uri_;
   std::atomic<bool> there_ = true;
 };
+
+/// The mode of the first of these formats, of this rate and 640 x 480, or nearest to it.
+std::optional<openni::VideoMode> bestMode(const openni::SensorInfo& sensor,
+                                          const std::vector<openni::PixelFormat>& formats,
+                                          int frames_per_s) {
+  constexpr int kWidth = 640;
+  constexpr int kHeight = 480;
+  const auto& modes = sensor.getSupportedVideoModes();
+  std::optional<openni::VideoMode> best;
+  const auto order = [&](const openni::VideoMode& mode) {
+    const auto format = std::ranges::find(formats, mode.getPixelFormat()) - formats.begin();
+    const int size_off = std::abs(mode.getResolutionX() * mode.getResolutionY() - kWidth * kHeight);
+    return std::tuple(std::abs(mode.getFps() - frames_per_s), size_off, format);
+  };
+  for (int i = 0; i < modes.getSize(); ++i) {
+    if (std::ranges::find(formats, modes[i].getPixelFormat()) != formats.end() &&
+        (!best || order(modes[i]) < order(*best))) {
+      best = modes[i];
+    }
+  }
+  return best;
+}
 
 std::string extendedError() { return openni::OpenNI::getExtendedError(); }
 

@@ -1,10 +1,11 @@
 #include "reconstruction/capture/openni/openni_frames.h"
 
+#include <OpenNI.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <tuple>
 
 namespace tarsus {
 namespace {
@@ -19,8 +20,7 @@ const Pixel* rowOf(const openni::VideoFrameRef& frame, int v) {
                                         static_cast<std::ptrdiff_t>(v) * frame.getStrideInBytes());
 }
 
-}  // namespace
-
+/// z [mm] by the camera's unit, to the bit as readDepthImage gives the same numbers.
 DepthImage depthOf(const openni::VideoFrameRef& frame, double units_per_m) {
   DepthImage depth(frame.getWidth(), frame.getHeight());
   const double mm_per_unit = 1000.0 / units_per_m;
@@ -43,6 +43,8 @@ ColorImage colorOf(const openni::VideoFrameRef& frame) {
   }
   return color;
 }
+
+}  // namespace
 
 FramePairing::FramePairing(double frames_per_s)
     : reach_(std::lround(0.5e6 / std::max(1.0, frames_per_s))) {}
@@ -109,27 +111,6 @@ std::optional<SensorImage> readAny(std::vector<openni::VideoStream*> streams,
     image.color = colorOf(frame);
   }
   return image;
-}
-
-std::optional<openni::VideoMode> bestMode(const openni::SensorInfo& sensor,
-                                          const std::vector<openni::PixelFormat>& formats,
-                                          int frames_per_s) {
-  constexpr int kWidth = 640;
-  constexpr int kHeight = 480;
-  const auto& modes = sensor.getSupportedVideoModes();
-  std::optional<openni::VideoMode> best;
-  const auto order = [&](const openni::VideoMode& mode) {
-    const auto format = std::ranges::find(formats, mode.getPixelFormat()) - formats.begin();
-    const int size_off = std::abs(mode.getResolutionX() * mode.getResolutionY() - kWidth * kHeight);
-    return std::tuple(std::abs(mode.getFps() - frames_per_s), size_off, format);
-  };
-  for (int i = 0; i < modes.getSize(); ++i) {
-    if (std::ranges::find(formats, modes[i].getPixelFormat()) != formats.end() &&
-        (!best || order(modes[i]) < order(*best))) {
-      best = modes[i];
-    }
-  }
-  return best;
 }
 
 }  // namespace tarsus

@@ -1,20 +1,17 @@
 #pragma once
 
-#include "reconstruction/base/error.h"
 #include "reconstruction/scene/frame.h"
-
-#include <OpenNI.h>
 
 #include <chrono>
 #include <deque>
 #include <optional>
 #include <vector>
 
-namespace tarsus {
+namespace openni {  // NOLINT(readability-identifier-naming): not ours
+class VideoStream;
+}
 
-/// z [mm] by the camera's unit, to the bit as readDepthImage gives the same numbers.
-[[nodiscard]] DepthImage depthOf(const openni::VideoFrameRef& frame, double units_per_m);
-[[nodiscard]] ColorImage colorOf(const openni::VideoFrameRef& frame);
+namespace tarsus {
 
 /// Joins depth and colour images that were taken together: nearest in time, within half a period.
 /// Depth goes on alone where no colour came; frames leave in the order of time.
@@ -50,12 +47,5 @@ struct SensorImage {
 [[nodiscard]] std::optional<SensorImage> readAny(std::vector<openni::VideoStream*> streams,
                                                  std::chrono::milliseconds most,
                                                  double units_per_m);
-
-/// What a device can do, as far as the choice of a mode goes.
-/// @return  nothing where no mode of these formats is there
-[[nodiscard]] std::optional<openni::VideoMode> bestMode(
-    const openni::SensorInfo& sensor,
-    const std::vector<openni::PixelFormat>& formats,
-    int frames_per_s);
 
 }  // namespace tarsus
