@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFramesLookedAt = 10;    ///< for the depth unit's plausibility
+constexpr int kFramesLookedAt = 10;  ///< for the depth unit's plausibility
 
 /// One frame as it came off the disk, with what went wrong on the way.
 struct LoadedFrame {
@@ -90,11 +90,10 @@ class ScanFolderSource final : public FrameSource {
       loaded.warnings.push_back({"frame_skipped", describe(depth.error())});
       return loaded;
     }
-    RgbdFrame frame{
-        .index = static_cast<int>(i),
-        .timestamp = files.timestamp,
-        .depth = preparation_.depth(std::move(*depth)),
-        .color = {}};
+    RgbdFrame frame{.index = static_cast<int>(i),
+                    .timestamp = files.timestamp,
+                    .depth = preparation_.depth(std::move(*depth)),
+                    .color = {}};
     if (with_color_) {
       loadColor(files, frame, loaded.warnings);
     }
