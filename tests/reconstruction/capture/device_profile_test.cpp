@@ -82,7 +82,7 @@ TEST(DeviceProfile, MalformedOnesAreRefusedWithFileAndField) {
 
 TEST(DeviceProfiles, OursAreWholeAndCorrectNothingYet) {
   const std::vector<DeviceProfile> profiles = deviceProfiles();
-  EXPECT_EQ(profiles.size(), 4U);
+  EXPECT_EQ(profiles.size(), 7U);
   for (const DeviceProfile& profile : profiles) {
     EXPECT_TRUE(profile.correction.isIdentity()) << profile.name;
     EXPECT_GE(profile.near_mm, 150.0) << profile.name;  // what openScanFolder takes for plausible
