@@ -106,6 +106,23 @@ fs::path folderFor(const fs::path& out) {
   return out.extension() == ".oni" ? fs::path(out.string() + ".scan") : out;
 }
 
+/// A scan cannot be taken a second time: none is written over.
+/// @errors BadOption
+Expected<void> checkFree(const fs::path& out, const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "depth.txt", ignored)) {
+    return fail(ErrorCode::BadOption,
+                folder.string() + " holds a scan already" +
+                    (folder != out ? ", from a recording that was interrupted" : "") +
+                    "; move it away or give another name");
+  }
+  if (folder != out && fs::exists(out, ignored)) {
+    return fail(ErrorCode::BadOption,
+                out.string() + " is there already; move it away or give another name");
+  }
+  return {};
+}
+
 /// Until the time is over, the camera fails for good, the disk is full, or Ctrl-C.
 Expected<void> recordFrames(OpenNiCamera& camera,
                             ScanRecorder& recorder,
@@ -150,13 +167,16 @@ Expected<void> recordFrames(OpenNiCamera& camera,
 }
 
 Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, const Job& job) {
+  const fs::path folder = folderFor(arguments.out);
+  if (auto free = checkFree(arguments.out, folder); !free) {
+    return tl::unexpected(free.error());
+  }
   const std::string uri =
       arguments.simulated.empty() ? arguments.device : simulatedUri(arguments.simulated.string());
   auto camera = OpenNiCamera::open(uri);
   if (!camera) {
     return tl::unexpected(camera.error());
   }
-  const fs::path folder = folderFor(arguments.out);
   const auto known = knownCamera(**camera, arguments.calibration);
   if (!known) {
     return tl::unexpected(known.error());

@@ -73,6 +73,20 @@ TEST_F(CliRecord, RecordsWhatReconstructsToTheSameBitsAsItsFolder) {
             bytesOf(file("foot-model/trajectory.txt")));
 }
 
+TEST_F(CliRecord, WritesOverNoScan) {
+  fs::create_directories(file("kept.oni.scan"));
+  std::ofstream(file("kept.oni.scan/depth.txt")) << "of an interrupted recording";
+  std::ofstream(file("there.oni")) << "a recording";
+  for (const char* out : {"kept.oni.scan", "kept.oni", "there.oni"}) {
+    const CliRun run =
+        cli("record " + file(out) + " --simulated " + file("foot") + " --seconds 1 --quiet");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_NE(run.output.find("give another name"), std::string::npos) << run.output;
+  }
+  EXPECT_EQ(bytesOf(file("there.oni")), "a recording");
+  EXPECT_EQ(bytesOf(file("kept.oni.scan/depth.txt")), "of an interrupted recording");
+}
+
 TEST_F(CliRecord, SaysWhereNoCameraIs) {
   for (const std::string& camera :
        {std::string("--device usb://1/2"), "--simulated " + file("nowhere")}) {

@@ -261,6 +261,16 @@ TEST_F(Cli, TextureRefusesWhatIsNoModelFolder) {
   EXPECT_EQ(std::distance(fs::directory_iterator(file("model")), fs::directory_iterator()), 2);
 }
 
+TEST_F(Cli, CalibrateRefusesWhatIsNoViews) {
+  fs::create_directories(file("views/color"));
+  writeText(file("views/color/1.png"), "no picture");
+  for (const char* views : {"nowhere", "views"}) {
+    const CliRun run = cli("calibrate " + file(views) + " " + file("calibration.json"));
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_FALSE(fs::exists(file("calibration.json")));
+  }
+}
+
 TEST_F(Cli, AnUnwritableFolderIsSaid) {
   writeText(file("a_file"), "");
   expectRefused("simulate " + file("a_file") + "/scan --frames 1", "file_unwritable");
