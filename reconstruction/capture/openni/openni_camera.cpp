@@ -123,7 +123,7 @@ struct OpenNiCamera::State {
       thread.join();
     }
     close();
-    plug.reset();
+    onOpenNiThread([&] { plug.reset(); });
   }
 
   // Each of these by OpenNI's thread.
@@ -341,7 +341,7 @@ Expected<std::unique_ptr<OpenNiCamera>> OpenNiCamera::open(const std::string& ur
     return tl::unexpected(library.error());
   }
   state->library = std::move(*library);
-  state->plug = std::make_unique<PlugListener>();
+  onOpenNiThread([&] { state->plug = std::make_unique<PlugListener>(); });
   state->uri = uri;
   if (uri.empty()) {
     const auto cameras = listCameras();

@@ -56,6 +56,14 @@ class Worker {
   std::jthread thread_{[this](const std::stop_token& stop) { serve(stop); }};
 };
 
+CameraInfo infoOf(const openni::DeviceInfo& device, const std::vector<DeviceProfile>& profiles) {
+  CameraInfo info{.uri = device.getUri(), .vendor = device.getVendor(), .name = device.getName()};
+  const DeviceProfile* profile = profileOf(info.vendor + " " + info.name, profiles);
+  info.profile = profile != nullptr ? profile->name : "";
+  info.simulated = info.uri.starts_with(kSimulatedScheme);
+  return info;
+}
+
 }  // namespace
 
 void onOpenNiThread(const std::function<void()>& work) {
@@ -94,18 +102,15 @@ Expected<std::vector<CameraInfo>> listCameras() {
   if (!library) {
     return tl::unexpected(library.error());
   }
-  openni::Array<openni::DeviceInfo> devices;
-  onOpenNiThread([&] { openni::OpenNI::enumerateDevices(&devices); });
   const auto profiles = deviceProfiles();
   std::vector<CameraInfo> cameras;
-  for (int i = 0; i < devices.getSize(); ++i) {
-    const openni::DeviceInfo& device = devices[i];
-    CameraInfo info{.uri = device.getUri(), .vendor = device.getVendor(), .name = device.getName()};
-    const DeviceProfile* profile = profileOf(info.vendor + " " + info.name, profiles);
-    info.profile = profile != nullptr ? profile->name : "";
-    info.simulated = info.uri.starts_with(kSimulatedScheme);
-    cameras.push_back(std::move(info));
-  }
+  onOpenNiThread([&] {
+    openni::Array<openni::DeviceInfo> devices;
+    openni::OpenNI::enumerateDevices(&devices);
+    for (int i = 0; i < devices.getSize(); ++i) {
+      cameras.push_back(infoOf(devices[i], profiles));
+    }
+  });
   return cameras;
 }
 
