@@ -87,6 +87,17 @@ TEST_F(CliRecord, WritesOverNoScan) {
   EXPECT_EQ(bytesOf(file("kept.oni.scan/depth.txt")), "of an interrupted recording");
 }
 
+TEST_F(CliRecord, KeepsWhatACameraWithAWrongUnitGaveAndSaysSo) {
+  ASSERT_EQ(cli("record " + file("wrong") + " --device \"tarsus:" + file("foot") +
+                "?fault=unit\" --seconds 2 --quiet")
+                .exit_code,
+            0);
+  const CliRun run = cli("reconstruct " + file("wrong") + " " + file("wrong-model") + " --quiet");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.output.find("units per metre"), std::string::npos) << run.output;
+  EXPECT_TRUE(fs::exists(file("wrong/depth.txt")));
+}
+
 TEST_F(CliRecord, SaysWhereNoCameraIs) {
   for (const std::string& camera :
        {std::string("--device usb://1/2"), "--simulated " + file("nowhere")}) {
