@@ -1,4 +1,5 @@
 #include "app/cli/simulate_options.h"
+#include "reconstruction/capture/openni/oni_file.h"
 #include "reconstruction/capture/simulator/simulator.h"
 
 #include <CLI/CLI.hpp>
@@ -82,22 +83,48 @@ void addObjectOption(CLI::App& sub, SimulatorOptions& options) {
       ->excludes("--foot");
 }
 
+namespace {
+
+/// Turns the frames of a scan folder into scan.oni in it; truth/ stays.
+Expected<void> intoRecording(const std::filesystem::path& folder, const Job& job) {
+  if (auto written = writeOniRecording(folder, folder / "scan.oni", job); !written) {
+    return written;
+  }
+  std::error_code ignored;
+  for (const char* part :
+       {"rgb", "depth", "rgb.txt", "depth.txt", "associations.txt", "camera.json"}) {
+    std::filesystem::remove_all(folder / part, ignored);
+  }
+  return {};
+}
+
+}  // namespace
+
 void addSimulate(CLI::App& app, Command& command) {
   struct Arguments {
     std::filesystem::path out;
     SimulatorOptions options;
+    std::string format = "folder";
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* sub = addCommand(
       app, command, "simulate", "Make the scan of a computer-made foot with ulcers of known size");
   sub->add_option("OUT", arguments->out, "Scan folder to write, with truth/ in it")->required();
   addSimulationOptions(*sub, arguments->options);
+  sub->add_option("--format", arguments->format, "Frames as a scan folder, or as scan.oni in it")
+      ->check(CLI::IsMember({"folder", "oni"}))
+      ->capture_default_str();
   addFaultOption(*sub, arguments->options);
   addObjectOption(*sub, arguments->options);
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) -> Expected<nlohmann::json> {
       if (auto done = simulateScan(arguments->out, arguments->options, job); !done) {
         return tl::unexpected(done.error());
+      }
+      if (arguments->format == "oni") {
+        if (auto turned = intoRecording(arguments->out, job); !turned) {
+          return tl::unexpected(turned.error());
+        }
       }
       if (!command.quiet && command.json_file != "-") {
         std::cout << "Wrote the scan to " << arguments->out.string()

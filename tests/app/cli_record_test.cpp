@@ -73,6 +73,16 @@ TEST_F(CliRecord, RecordsWhatReconstructsToTheSameBitsAsItsFolder) {
             bytesOf(file("foot-model/trajectory.txt")));
 }
 
+TEST_F(CliRecord, SimulatesARecording) {
+  const CliRun run =
+      cli("simulate " + file("played") + " --foot heel --frames 20 --format oni --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_TRUE(fs::exists(file("played/scan.oni")));
+  EXPECT_TRUE(fs::exists(file("played/scan.oni.json")));
+  EXPECT_TRUE(fs::exists(file("played/truth/truth.json")));
+  EXPECT_FALSE(fs::exists(file("played/depth")));
+}
+
 TEST_F(CliRecord, WritesOverNoScan) {
   fs::create_directories(file("kept.oni.scan"));
   std::ofstream(file("kept.oni.scan/depth.txt")) << "of an interrupted recording";
