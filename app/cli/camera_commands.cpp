@@ -4,6 +4,7 @@
 #include "reconstruction/capture/openni/openni_camera.h"
 #include "reconstruction/capture/openni/openni_library.h"
 #include "reconstruction/capture/scan_recorder.h"
+#include "reconstruction/pipeline/model_record.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,14 +20,6 @@ namespace tarsus {
 namespace {
 
 namespace fs = std::filesystem;
-
-nlohmann::json toJson(const Warnings& warnings) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Warning& warning : warnings) {
-    list.push_back({{"code", warning.code}, {"text", warning.text}});
-  }
-  return list;
-}
 
 Expected<nlohmann::json> printCameras(bool print) {
   const auto cameras = listCameras();
@@ -138,7 +131,7 @@ Expected<void> recordFrames(OpenNiCamera& camera,
     first = first.value_or(frame.timestamp);
     const std::int64_t at_us = (frame.timestamp - *first).count();
     if (at_us < wanted_us - half_us) {
-      recorder.add(std::move(frame));
+      recorder.add(std::make_shared<const RgbdFrame>(std::move(frame)));
     }
     passed_us = at_us;
   });

@@ -55,6 +55,9 @@ struct OutlineFile {
 [[nodiscard]] Expected<WoundOutline> outlineOn(const TexturedMesh& foot,
                                                const MeshIndex& index,
                                                const OutlineFile& file);
+/// Scan frame [mm].
+[[nodiscard]] std::vector<Eigen::Vector3d> positionsOf(const TriangleMesh& mesh,
+                                                       std::span<const SurfacePoint> points);
 /// Whether this is a point of a face of the mesh.
 [[nodiscard]] bool liesOn(const TriangleMesh& mesh, const SurfacePoint& point);
 /// The points alone.

@@ -36,12 +36,8 @@ Expected<OutlineEditor> OutlineEditor::besides(std::span<const WoundOutline> oth
     if (other.mesh_sha256 != foot_->sha256) {
       return fail(ErrorCode::OutlineInvalid, "another wound's outline is of another model");
     }
-    std::vector<Eigen::Vector3d> positions;
-    for (const SurfacePoint& point : other.curve) {
-      positions.push_back(positionOf(foot_->mesh, point));
-    }
     GrowingPatch around(foot_->mesh);
-    around.cover(positions);
+    around.cover(positionsOf(foot_->mesh, other.curve));
     const OutlinePiece piece{.way = other.curve, .problem = {}};
     const OutlinePiece* const all = &piece;
     auto traced = closePieces(around, std::span(&all, 1));
@@ -60,12 +56,8 @@ Expected<OutlineEditor> OutlineEditor::besides(std::span<const WoundOutline> oth
 OutlineEditor OutlineEditor::with(OutlineClicks clicks) const {
   OutlineEditor next = *this;
   next.clicks_ = std::move(clicks);
-  std::vector<Eigen::Vector3d> positions;
-  for (const SurfacePoint& point : next.clicks_.points) {
-    positions.push_back(positionOf(foot_->mesh, point));
-  }
-  next.local_.cover(positions);
-  const std::size_t count = positions.size();
+  next.local_.cover(positionsOf(foot_->mesh, next.clicks_.points));
+  const std::size_t count = next.clicks_.points.size();
   const std::size_t pieces = count < 2 ? 0 : next.clicks_.closed ? count : count - 1;
   next.pieces_.clear();
   for (std::size_t i = 0; i < pieces; ++i) {

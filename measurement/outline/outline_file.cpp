@@ -101,15 +101,6 @@ json pointsDocument(std::span<const Eigen::Vector3d> points_mm,
   return document;
 }
 
-std::vector<Eigen::Vector3d> positionsOn(const TriangleMesh& mesh,
-                                         std::span<const SurfacePoint> points) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const SurfacePoint& point : points) {
-    positions.push_back(positionOf(mesh, point));
-  }
-  return positions;
-}
-
 /// Whether the points of the file are still those that it was traced through.
 bool isThrough(const TriangleMesh& mesh,
                const std::vector<SurfacePoint>& traced,
@@ -119,7 +110,7 @@ bool isThrough(const TriangleMesh& mesh,
       !std::ranges::all_of(traced, [&](const SurfacePoint& p) { return liesOn(mesh, p); })) {
     return false;
   }
-  const auto positions = positionsOn(mesh, traced);
+  const auto positions = positionsOf(mesh, traced);
   return std::ranges::equal(
       positions, points_mm, [](const auto& a, const auto& b) { return (a - b).norm() < kSame_mm; });
 }
@@ -130,8 +121,8 @@ bool runsBy(const TriangleMesh& mesh, const WoundOutline& outline) {
   if (!std::ranges::all_of(outline.clicks, [&](const auto& p) { return liesOn(mesh, p); })) {
     return false;
   }
-  const auto curve = positionsOn(mesh, outline.curve);
-  const auto clicks = positionsOn(mesh, outline.clicks);
+  const auto curve = positionsOf(mesh, outline.curve);
+  const auto clicks = positionsOf(mesh, outline.clicks);
   return std::ranges::all_of(clicks, [&](const Eigen::Vector3d& click) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
       if (nearestOnSegment(click, curve[i], curve[(i + 1) % curve.size()]).distance < kBeside_mm) {
@@ -143,6 +134,16 @@ bool runsBy(const TriangleMesh& mesh, const WoundOutline& outline) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> positionsOf(const TriangleMesh& mesh,
+                                         std::span<const SurfacePoint> points) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(points.size());
+  for (const SurfacePoint& point : points) {
+    positions.push_back(positionOf(mesh, point));
+  }
+  return positions;
+}
 
 bool liesOn(const TriangleMesh& mesh, const SurfacePoint& point) {
   const auto& b = point.barycentric;
@@ -201,7 +202,7 @@ Expected<void> writeOutline(const std::filesystem::path& path,
                             OutlineShape shape,
                             std::optional<OutlineSource> source) {
   const auto& points = shape == OutlineShape::Smooth ? outline.curve : outline.clicks;
-  json document = pointsDocument(positionsOn(foot.mesh, points), source);
+  json document = pointsDocument(positionsOf(foot.mesh, points), source);
   document["traced"] = {{"mesh_sha256", outline.mesh_sha256},
                         {"clicks", toJson(outline.clicks)},
                         {"curve", toJson(outline.curve)}};

@@ -55,11 +55,7 @@ Expected<PaintedRegion> PaintedRegion::inside(std::shared_ptr<const TexturedMesh
     return fail(ErrorCode::OutlineInvalid, "the outline is of another model");
   }
   PaintedRegion region(std::move(foot));
-  std::vector<Eigen::Vector3d> positions;
-  for (const SurfacePoint& point : outline.curve) {
-    positions.push_back(positionOf(region.foot_->mesh, point));
-  }
-  region.local_.cover(positions);
+  region.local_.cover(positionsOf(region.foot_->mesh, outline.curve));
   while (true) {
     const SurfacePatch& patch = region.local_.patch();
     const auto curve = closeCurve(patch, nodesOf(patch, outline.curve));

@@ -51,7 +51,8 @@ class WoundMeasurer {
       return tl::unexpected(site.error());
     }
     site_ = std::move(*site);
-    auto skin = fitSkin(0.0);
+    samples_ = skinSamples(foot_, site_, 0.0, options_);
+    auto skin = fitReferenceSkin(samples_, middleOfOutline(), options_.skin);
     if (!skin) {
       return tl::unexpected(skin.error());
     }
@@ -76,13 +77,18 @@ class WoundMeasurer {
   }
 
  private:
-  [[nodiscard]] Expected<ReferenceSkin> fitSkin(double shift_mm) const {
+  [[nodiscard]] Eigen::Vector3d middleOfOutline() const {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     const auto points = positionsOf(site_.patch, site_.outline);
     for (const auto& p : points) {
       middle += p / static_cast<double>(points.size());
     }
-    return fitReferenceSkin(skinSamples(foot_, site_, shift_mm, options_), middle, options_.skin);
+    return middle;
+  }
+
+  [[nodiscard]] Expected<ReferenceSkin> fitSkin(double shift_mm) const {
+    return fitReferenceSkin(
+        skinSamples(foot_, site_, shift_mm, options_), middleOfOutline(), options_.skin);
   }
 
   void fillNumbers() {
@@ -156,8 +162,7 @@ class WoundMeasurer {
   }
 
   void judgeSkinCurve() {
-    uneven_skin_ = unevenAlongSkinCurve(
-        skinSamples(foot_, site_, 0.0, options_), skin_, options_.skin.correlation_area_mm2);
+    uneven_skin_ = unevenAlongSkinCurve(samples_, skin_, options_.skin.correlation_area_mm2);
     if (!uneven_skin_.empty()) {
       warn("skin_curve_uneven",
            "The skin curve runs over raised or sloping skin, as at a callus, at " +
@@ -269,6 +274,7 @@ class WoundMeasurer {
   BedDepths depths_;
   Quantities values_;
   WoundMeasurement numbers_;
+  std::vector<SkinSample> samples_;  ///< outside the skin curve as it lies
   std::vector<UnevenSkin> uneven_skin_;
 };
 

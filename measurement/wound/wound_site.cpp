@@ -43,14 +43,6 @@ std::optional<std::string> whyUnusable(const TexturedMesh& foot, const WoundOutl
   return std::nullopt;
 }
 
-std::vector<Eigen::Vector3d> meshPositions(const TexturedMesh& foot, const WoundOutline& outline) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const SurfacePoint& point : outline.curve) {
-    positions.push_back(positionOf(foot.mesh, point));
-  }
-  return positions;
-}
-
 Expected<SurfaceCurve> curveOn(const SurfacePatch& patch, const WoundOutline& outline) {
   std::vector<SurfaceNode> nodes;
   for (const SurfacePoint& point : outline.curve) {
@@ -92,7 +84,7 @@ Expected<void> useSkinCurve(const TexturedMesh& foot,
     return asSkinCurve(cut.error());
   }
   site.skin_distance_mm = signedDistances(site.patch, *curve, *cut, reach_mm);
-  site.skin_curve_mm = meshPositions(foot, skin_curve);
+  site.skin_curve_mm = positionsOf(foot.mesh, skin_curve.curve);
   for (const SurfaceNode& node : site.outline.nodes) {
     if (clampedAt(site.patch, site.skin_distance_mm, node, reach_mm) >= 0.0) {
       return fail(ErrorCode::SkinCurveInvalid, "the outline is not wholly inside the skin curve");
@@ -161,7 +153,8 @@ Expected<WoundSite> openSite(const TexturedMesh& foot,
       return fail(ErrorCode::SkinCurveInvalid, "skin curve: " + *reason);
     }
   }
-  std::vector<Eigen::Vector3d> outermost = meshPositions(foot, skin_curve.value_or(outline));
+  std::vector<Eigen::Vector3d> outermost =
+      positionsOf(foot.mesh, skin_curve.value_or(outline).curve);
   const Ball3 ball = ballAround(outermost);
   const double reach_mm = options.skin.annulus_mm + options.skin_curve_half_width_mm +
                           (skin_curve ? 0.0 : options.skin_curve_offset_mm) + 1.0;

@@ -24,29 +24,14 @@ ScanFacts parseScanFacts(const json& object) {
   return facts;
 }
 
-template <typename Facts>
-Expected<Facts> readJson(const std::filesystem::path& path, Facts (*parse)(const json&)) {
-  auto text = readTextFile(path);
-  if (!text) {
-    return tl::unexpected(text.error());
-  }
-  try {
-    return parse(json::parse(*text));
-  } catch (const InvalidField& invalid) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + invalid.what);
-  } catch (const json::exception& exception) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + exception.what());
-  }
-}
-
 }  // namespace
 
 Expected<RgbdCamera> readCamera(const std::filesystem::path& path) {
-  return readJson(path, cameraFields);
+  return readJsonFile(path, cameraFields);
 }
 
 Expected<ScanFacts> readScanFacts(const std::filesystem::path& path) {
-  return readJson(path, parseScanFacts);
+  return readJsonFile(path, parseScanFacts);
 }
 
 Expected<void> writeCamera(const std::filesystem::path& path,

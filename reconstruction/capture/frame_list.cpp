@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -159,6 +160,12 @@ Expected<std::vector<FrameFiles>> listFrames(const fs::path& folder) {
     return fail(ErrorCode::ScanEmpty, folder.string() + " lists no depth image");
   }
   return frames;
+}
+
+std::string timeText(std::chrono::microseconds time) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f", static_cast<double>(time.count()) * 1e-6);
+  return text;
 }
 
 }  // namespace tarsus

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tarsus {
@@ -19,5 +20,8 @@ struct FrameFiles {
 /// otherwise rgb.txt and depth.txt by nearest time within half a frame. Ordered by time.
 /// @errors FileMissing (neither list), ScanEmpty, FileUnreadable (a line that is no entry)
 [[nodiscard]] Expected<std::vector<FrameFiles>> listFrames(const std::filesystem::path& folder);
+
+/// Seconds with six decimals, as lists and file names of a scan folder have them.
+[[nodiscard]] std::string timeText(std::chrono::microseconds time);
 
 }  // namespace tarsus

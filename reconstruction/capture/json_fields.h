@@ -1,9 +1,12 @@
 #pragma once
 
+#include "reconstruction/base/atomic_file.h"
+#include "reconstruction/base/error.h"
 #include "reconstruction/capture/depth_correction.h"
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace tarsus {
@@ -26,6 +29,24 @@ struct InvalidField {
 
 /// The fields of camera.json (design.md section 3); others are ignored.
 [[nodiscard]] RgbdCamera cameraFields(const nlohmann::json& object);
+
+/// What `parse` makes of a JSON file; it may throw InvalidField and nlohmann's exceptions.
+/// @errors FileMissing, FileUnreadable, CameraFactsInvalid
+template <typename Facts>
+[[nodiscard]] Expected<Facts> readJsonFile(const std::filesystem::path& path,
+                                           Facts (*parse)(const nlohmann::json&)) {
+  const auto text = readTextFile(path);
+  if (!text) {
+    return tl::unexpected(text.error());
+  }
+  try {
+    return parse(nlohmann::json::parse(*text));
+  } catch (const InvalidField& invalid) {
+    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + invalid.what);
+  } catch (const nlohmann::json::exception& exception) {
+    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + exception.what());
+  }
+}
 
 [[nodiscard]] nlohmann::json intrinsicsJson(const Intrinsics& intrinsics);
 [[nodiscard]] nlohmann::json cameraJson(const RgbdCamera& camera);

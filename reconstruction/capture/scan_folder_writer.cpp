@@ -1,25 +1,15 @@
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/capture/camera_file.h"
+#include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/image_file.h"
 #include "reconstruction/capture/scan_folder.h"
 #include "reconstruction/capture/trajectory_file.h"
 
-#include <cstdio>
 #include <map>
 #include <mutex>
 
 namespace tarsus {
-namespace {
-
 namespace fs = std::filesystem;
-
-std::string timeText(std::chrono::microseconds time) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.6f", static_cast<double>(time.count()) * 1e-6);
-  return text;
-}
-
-}  // namespace
 
 struct ScanFolderWriter::State {
   fs::path folder;

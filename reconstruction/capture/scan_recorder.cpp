@@ -1,17 +1,17 @@
 #include "reconstruction/capture/scan_recorder.h"
 
 #include "reconstruction/base/atomic_file.h"
+#include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/image_file.h"
 
-#include <array>
 #include <condition_variable>
-#include <cstdio>
 #include <deque>
 #include <fstream>
 #include <map>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace tarsus {
@@ -29,24 +29,24 @@ double megabytesPerFrame(const RgbdCamera& camera) {
   return kPacked * (2.0 * pixels(camera.depth) + 3.0 * pixels(camera.color)) / kBytesPerMb;
 }
 
-std::string timeText(std::chrono::microseconds time) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.6f", static_cast<double>(time.count()) * 1e-6);
-  return text.data();
-}
-
 }  // namespace
 
 struct ScanRecorder::State {
+  /// A frame that is on the disk.
+  struct Listed {
+    std::string time;
+    bool with_color = false;
+  };
+
   fs::path folder;
   RgbdCamera camera;
   RecorderOptions options;
 
   mutable std::mutex mutex;  ///< guards all that follows but the threads
   std::condition_variable changed;
-  std::deque<RgbdFrame> waiting;
-  /// Without images: ready for the lists, as soon as those before them are.
-  std::map<int, RgbdFrame> done;
+  std::deque<std::pair<int, std::shared_ptr<const RgbdFrame>>> waiting;  ///< numbered here
+  /// Ready for the lists, as soon as those before them are.
+  std::map<int, Listed> done;
   int next_listed = 0;
   int accepted = 0;
   bool closing = false;
@@ -100,11 +100,11 @@ void ScanRecorder::State::write() {
     if (waiting.empty()) {
       return;
     }
-    RgbdFrame frame = std::move(waiting.front());
+    const auto [number, frame] = std::move(waiting.front());
     waiting.pop_front();
     const bool stopped = failure.has_value();
     lock.unlock();
-    const auto size_mb = stopped ? Expected<double>(0.0) : writeImages(frame);
+    const auto size_mb = stopped ? Expected<double>(0.0) : writeImages(*frame);
     lock.lock();
     if (!size_mb && !failure) {
       failure = size_mb.error();
@@ -114,10 +114,7 @@ void ScanRecorder::State::write() {
       continue;
     }
     counts.megabytes += *size_mb;
-    frame.depth = {};
-    const bool with_color = frame.color.width() > 0;
-    frame.color = with_color ? ColorImage(1, 1) : ColorImage();
-    done.emplace(frame.index, std::move(frame));
+    done.emplace(number, Listed{timeText(frame->timestamp), frame->color.width() > 0});
     list();
   }
 }
@@ -125,9 +122,8 @@ void ScanRecorder::State::write() {
 /// Lists the frames in their order, each as soon as all before it are written.
 void ScanRecorder::State::list() {
   while (!done.empty() && done.begin()->first == next_listed) {
-    const RgbdFrame& frame = done.begin()->second;
-    const std::string time = timeText(frame.timestamp);
-    if (frame.color.width() > 0) {
+    const auto& [time, with_color] = done.begin()->second;
+    if (with_color) {
       color_list << time << " rgb/" << time << ".png\n" << std::flush;
     }
     depth_list << time << " depth/" << time << ".png\n" << std::flush;
@@ -192,7 +188,7 @@ Expected<std::unique_ptr<ScanRecorder>> ScanRecorder::create(const fs::path& fol
 ScanRecorder::ScanRecorder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ScanRecorder::~ScanRecorder() { state_->close(); }
 
-bool ScanRecorder::add(RgbdFrame frame) {
+bool ScanRecorder::add(std::shared_ptr<const RgbdFrame> frame) {
   {
     const std::scoped_lock lock(state_->mutex);
     if (state_->closing || state_->failure ||
@@ -200,8 +196,7 @@ bool ScanRecorder::add(RgbdFrame frame) {
       ++state_->counts.dropped;
       return false;
     }
-    frame.index = state_->accepted++;
-    state_->waiting.push_back(std::move(frame));
+    state_->waiting.emplace_back(state_->accepted++, std::move(frame));
   }
   state_->changed.notify_one();
   return true;

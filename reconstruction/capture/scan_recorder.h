@@ -44,8 +44,9 @@ class ScanRecorder {
   ScanRecorder(ScanRecorder&&) = delete;
   ScanRecorder& operator=(ScanRecorder&&) = delete;
 
-  /// Never waits: the frame is written by threads of the recorder's own. False: dropped.
-  bool add(RgbdFrame frame);
+  /// Never waits: the frame is written by threads of the recorder's own, and shared with whoever
+  /// shows or tracks it meanwhile. Its index is of no account. False: dropped.
+  bool add(std::shared_ptr<const RgbdFrame> frame);
   /// Writes what waits and closes the lists; the first failure, if there was one. What was written
   /// before it is kept.
   /// @errors FileUnwritable, DiskFull

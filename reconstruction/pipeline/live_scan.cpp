@@ -66,7 +66,7 @@ void LiveScan::State::take(RgbdFrame frame) {
         0.0);
     return;
   }
-  recorder->add(*shared);
+  recorder->add(shared);
   waiting.push_back(shared);
   if (waiting.size() > kMostWaiting) {
     waiting.pop_front();
@@ -93,8 +93,10 @@ void LiveScan::State::track(const std::stop_token& stop, Tracked& tracked) {
 }
 
 void LiveScan::State::look(Tracked& tracked, const RgbdFrame& sensor, double coverage_percent) {
-  RgbdFrame frame = sensor;
-  frame.depth = tracked.preparation.depth(std::move(frame.depth));
+  const RgbdFrame frame{.index = sensor.index,
+                        .timestamp = sensor.timestamp,
+                        .depth = tracked.preparation.depth(sensor.depth),
+                        .color = {}};
   const LiveFrame live = tracked.session.push(frame);
   const ScanGuidance guidance = tracked.guide.update(sensor, live, coverage_percent);
   tracked.trajectory.push_back(live.pose);

@@ -49,7 +49,8 @@ int cycles(const std::string& scan, int count) {
     }
     std::atomic<int> taken = 0;
     const auto started = (*camera)->start([&](RgbdFrame frame) {
-      if (taken < kFrames && (*recorder)->add(std::move(frame))) {
+      if (taken < kFrames &&
+          (*recorder)->add(std::make_shared<const RgbdFrame>(std::move(frame)))) {
         ++taken;
       }
     });

@@ -222,17 +222,7 @@ CalibrationProfile parse(const json& whole) {
 }  // namespace
 
 Expected<CalibrationProfile> readCalibration(const std::filesystem::path& path) {
-  auto text = readTextFile(path);
-  if (!text) {
-    return tl::unexpected(text.error());
-  }
-  try {
-    return parse(json::parse(*text));
-  } catch (const InvalidField& invalid) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + invalid.what);
-  } catch (const json::exception& exception) {
-    return fail(ErrorCode::CameraFactsInvalid, path.string() + ": " + exception.what());
-  }
+  return readJsonFile(path, parse);
 }
 
 Expected<void> writeCalibration(const std::filesystem::path& path,

@@ -25,8 +25,6 @@ using std::chrono::milliseconds;
 
 constexpr auto kWait = milliseconds(2000);
 constexpr int kFramesLookedAt = 10;  ///< for the depth unit's plausibility
-/// Between the stop of the streams and their end (openni_camera.cpp).
-constexpr auto kSettle = milliseconds(60);
 
 fs::path factsBeside(const fs::path& file) { return file.string() + ".json"; }
 

@@ -26,8 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kSilence = milliseconds(500);
 constexpr auto kWait = milliseconds(30);
-/// Between the stop of the streams and their end; without it OpenNI crashes in one of four ends.
-constexpr auto kSettle = milliseconds(60);
 
 /// Hears of this camera being unplugged and plugged in, from OpenNI's threads.
 class PlugListener final : public openni::OpenNI::DeviceConnectedListener,

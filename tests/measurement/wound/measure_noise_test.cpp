@@ -1,4 +1,5 @@
 #include "tests/measurement/wound/measured.h"
+#include "tests/measurement/wound/spread.h"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +8,6 @@
 
 namespace tarsus {
 namespace {
-
-struct Statistics {
-  double mean = 0.0;
-  double sd = 0.0;
-};
-
-Statistics statistics(const std::vector<double>& values) {
-  Statistics s;
-  for (const double v : values) {
-    s.mean += v / static_cast<double>(values.size());
-  }
-  for (const double v : values) {
-    s.sd += (v - s.mean) * (v - s.mean) / static_cast<double>(values.size() - 1);
-  }
-  s.sd = std::sqrt(s.sd);
-  return s;
-}
 
 /// Relative errors over seeds: noise of 0.2 mm, correlated over 1.5 mm, is a bad fused scan.
 void expectUnbiased(const test::Skin& skin, double radius_mm, double depth_mm) {
@@ -51,28 +35,28 @@ void expectUnbiased(const test::Skin& skin, double radius_mm, double depth_mm) {
                   ? 1
                   : 0;
   }
-  const Statistics a = statistics(area);
-  const Statistics v = statistics(volume);
-  const Statistics d = statistics(depth);
+  const test::Spread a(area);
+  const test::Spread v(volume);
+  const test::Spread d(depth);
   std::printf(
       "area %+.2f +- %.2f %%, volume %+.2f +- %.2f %%, p99 depth %+.3f +- %.3f mm, volume "
       "inside its interval %d of %d\n",
-      100.0 * a.mean,
-      100.0 * a.sd,
-      100.0 * v.mean,
-      100.0 * v.sd,
-      d.mean,
-      d.sd,
+      100.0 * a.mean(),
+      100.0 * a.deviation(),
+      100.0 * v.mean(),
+      100.0 * v.deviation(),
+      d.mean(),
+      d.deviation(),
       inside,
       kSeeds);
   const double errors_of_mean = 3.0 / std::sqrt(kSeeds);
-  EXPECT_LT(std::abs(a.mean), 0.01 + errors_of_mean * a.sd);
-  EXPECT_LT(a.sd, 0.02);
-  EXPECT_LT(std::abs(v.mean), 0.02 + errors_of_mean * v.sd);
+  EXPECT_LT(std::abs(a.mean()), 0.01 + errors_of_mean * a.deviation());
+  EXPECT_LT(a.deviation(), 0.02);
+  EXPECT_LT(std::abs(v.mean()), 0.02 + errors_of_mean * v.deviation());
   // Skin and bed each carry about 0.08 mm of noise under the whole wound (the benchmark in
   // measurement/wound/README.md); the mean depth of a bowl is half its depth.
-  EXPECT_LT(v.sd, 0.14 / (0.5 * depth_mm));
-  EXPECT_LT(std::abs(d.mean), 0.2);
+  EXPECT_LT(v.deviation(), 0.14 / (0.5 * depth_mm));
+  EXPECT_LT(std::abs(d.mean()), 0.2);
   // 95 % intervals: fewer than 16 of 20 would be rarer than 1 in 300.
   EXPECT_GE(inside, 16);
 }

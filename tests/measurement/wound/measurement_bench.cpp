@@ -4,6 +4,7 @@
 #include "reconstruction/base/parallel.h"
 #include "tests/measurement/wound/bench_wounds.h"
 #include "tests/measurement/wound/measured.h"
+#include "tests/measurement/wound/spread.h"
 
 #include <sys/resource.h>
 
@@ -19,24 +20,6 @@
 namespace {
 
 using namespace tarsus;
-
-struct Statistics {
-  double mean = 0.0;
-  double sd = 0.0;
-};
-
-Statistics statistics(const std::vector<double>& values) {
-  Statistics s;
-  for (const double v : values) {
-    s.mean += v / static_cast<double>(values.size());
-  }
-  for (const double v : values) {
-    s.sd += (v - s.mean) * (v - s.mean) /
-            static_cast<double>(std::max<std::size_t>(1, values.size() - 1));
-  }
-  s.sd = std::sqrt(s.sd);
-  return s;
-}
 
 double relative(const WoundMeasurement& numbers, const test::BenchWound& wound, const char* name) {
   return 100.0 * (test::valueOf(numbers, name) / wound.truth.at(name) - 1.0);
@@ -109,21 +92,21 @@ void noiseTable(int seeds) {
                     : 99.0;
       depth[i] = m ? *m->numbers.p99_depth_mm - wound.truth.at("p99_depth_mm") : 99.0;
     });
-    const Statistics a = statistics(area);
-    const Statistics v = statistics(volume);
-    const Statistics d = statistics(depth);
+    const test::Spread a(area);
+    const test::Spread v(volume);
+    const test::Spread d(depth);
     // Noise of the bed alone, however well the skin is known.
     const double bed = 100.0 * kNoise_mm * std::sqrt(14.0 * wound.truth.at("opening_area_mm2")) /
                        wound.truth.at("volume_mm3");
     std::printf("%-14s | %+6.2f +- %5.2f | %+6.2f +- %5.2f %9.2f | %+6.3f +- %5.3f\n",
                 wound.name.c_str(),
-                a.mean,
-                a.sd,
-                v.mean,
-                v.sd,
+                a.mean(),
+                a.deviation(),
+                v.mean(),
+                v.deviation(),
                 bed,
-                d.mean,
-                d.sd);
+                d.mean(),
+                d.deviation());
   }
   std::printf("%-14s | %15s | %15s %9s | %s\n", "must", "1", "2 +- 4", "", "0.2");
 }
@@ -188,7 +171,7 @@ void coverageOf(const test::BenchWound& wound, double noise_mm, int trials) {
     std::printf("  %-20s %8.2f +- %6.2f  %5.1f %%%s\n",
                 name.c_str(),
                 truth,
-                statistics(width[k]).mean,
+                test::Spread(width[k]).mean(),
                 100.0 * static_cast<double>(held) / trials,
                 failed > 0 ? (", " + std::to_string(failed) + " not measured").c_str() : "");
     ++k;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace tarsus::test {
@@ -9,6 +10,8 @@ namespace tarsus::test {
 /// Values of one cell of a table.
 class Spread {
  public:
+  Spread() = default;
+  explicit Spread(std::vector<double> values) : values_(std::move(values)) {}
   void add(double value) { values_.push_back(value); }
   [[nodiscard]] std::size_t count() const { return values_.size(); }
   [[nodiscard]] double last() const { return values_.back(); }

@@ -18,12 +18,16 @@ RgbdCamera plainCamera() {
   return camera;
 }
 
+std::shared_ptr<const RgbdFrame> sharedFrame(int index) {
+  return std::make_shared<const RgbdFrame>(smallFrame(index));
+}
+
 TEST(ScanRecorder, KeepsEachFrameToTheBit) {
   const TemporaryFolder folder;
   auto recorder = ScanRecorder::create(folder.path() / "scan", plainCamera(), 1.0);
   ASSERT_TRUE(recorder) << describe(recorder.error());
   for (int i = 0; i < 30; ++i) {
-    EXPECT_TRUE((*recorder)->add(smallFrame(i)));
+    EXPECT_TRUE((*recorder)->add(sharedFrame(i)));
   }
   ASSERT_TRUE((*recorder)->finish());
   EXPECT_EQ((*recorder)->counts().written, 30);
@@ -48,7 +52,7 @@ TEST(ScanRecorder, IsAScanAtEachMoment) {
   auto recorder = ScanRecorder::create(folder.path() / "scan", plainCamera(), 1.0);
   ASSERT_TRUE(recorder);
   for (int i = 0; i < 10; ++i) {
-    (*recorder)->add(smallFrame(i));
+    (*recorder)->add(sharedFrame(i));
   }
   while ((*recorder)->counts().written < 5) {
   }
@@ -62,7 +66,7 @@ TEST(ScanRecorder, DropsAndCountsRatherThanWait) {
   auto recorder =
       ScanRecorder::create(folder.path() / "scan", plainCamera(), 1.0, {.most_waiting = 0});
   ASSERT_TRUE(recorder);
-  EXPECT_FALSE((*recorder)->add(smallFrame(0)));
+  EXPECT_FALSE((*recorder)->add(sharedFrame(0)));
   ASSERT_TRUE((*recorder)->finish());
   EXPECT_EQ((*recorder)->counts().dropped, 1);
 }
@@ -80,17 +84,17 @@ TEST(ScanRecorder, SaysWhyItEndedAndKeepsWhatItHas) {
   auto recorder = ScanRecorder::create(folder.path() / "scan", plainCamera(), 1.0);
   ASSERT_TRUE(recorder);
   for (int i = 0; i < 5; ++i) {
-    (*recorder)->add(smallFrame(i));
+    (*recorder)->add(sharedFrame(i));
   }
   while ((*recorder)->counts().written < 5) {
   }
   std::filesystem::remove_all(folder.path() / "scan" / "depth");
   std::ofstream(folder.path() / "scan" / "depth") << "in the way";
-  (*recorder)->add(smallFrame(5));
+  (*recorder)->add(sharedFrame(5));
   const auto finished = (*recorder)->finish();
   ASSERT_FALSE(finished);
   EXPECT_EQ((*recorder)->counts().written, 5);
-  EXPECT_FALSE((*recorder)->add(smallFrame(6)));
+  EXPECT_FALSE((*recorder)->add(sharedFrame(6)));
 }
 
 TEST(ScanRecorder, RefusesAFolderThatCannotBeWritten) {
