@@ -1,7 +1,11 @@
 #include "app/cli/command.h"
+#include "app/user_folders.h"
 #include "reconstruction/capture/calibration/calibration.h"
 #include "reconstruction/capture/calibration/calibration_folder.h"
 #include "reconstruction/capture/calibration/calibration_profile.h"
+#include "reconstruction/capture/openni/openni_library.h"
+#include "reconstruction/pipeline/live_calibration.h"
+#include "reconstruction/pipeline/model_record.h"
 
 #include <CLI/CLI.hpp>
 
@@ -14,9 +18,16 @@
 namespace tarsus {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Arguments {
-  std::filesystem::path views;
-  std::filesystem::path out;
+  fs::path views;
+  fs::path out;  ///< empty: the user's own calibrations
+  bool live = false;
+  std::string device;
+  fs::path simulated;
+  int wanted_views = 20;
+  bool infrared = true;
   CalibrationOptions options;
 };
 
@@ -57,20 +68,91 @@ void print(const CalibrationProfile& profile) {
   }
 }
 
+const char* nameOf(BoardLook look) {
+  switch (look) {
+    case BoardLook::NotFound:
+      return "show the whole board";
+    case BoardLook::Moving:
+      return "hold the board still";
+    case BoardLook::Seen:
+      return "move or tilt the board";
+    case BoardLook::Taken:
+      return "view taken";
+  }
+  return "";
+}
+
+/// @errors BadOption, those of OpenNiCamera::open and takeCalibrationViews
+Expected<void> takeViews(const Arguments& arguments, const Job& job) {
+  std::error_code ignored;
+  if (fs::exists(arguments.views / "color", ignored)) {
+    return fail(ErrorCode::BadOption,
+                arguments.views.string() +
+                    " holds views already; calibrate from them without --device, or name another "
+                    "folder");
+  }
+  const auto camera = OpenNiCamera::open(
+      arguments.simulated.empty() ? arguments.device : simulatedUri(arguments.simulated.string()));
+  if (!camera) {
+    return tl::unexpected(camera.error());
+  }
+  const LiveCalibrationOptions options{.board = arguments.options.board,
+                                       .views = arguments.wanted_views,
+                                       .infrared = arguments.infrared};
+  const auto taken = takeCalibrationViews(
+      **camera,
+      arguments.views,
+      options,
+      [&](const auto& view) {
+        job.report(nameOf(view.look), static_cast<double>(view.taken) / options.views);
+      },
+      job);
+  if (!taken) {
+    return fail(
+        taken.error().code,
+        taken.error().detail + "; views taken so far are kept in " + arguments.views.string());
+  }
+  return {};
+}
+
+/// From a folder of views, or of a recorded scan.
+Expected<CalibrationCapture> readViews(const Arguments& arguments, const Job& job) {
+  std::error_code ignored;
+  if (arguments.views.extension() == ".oni") {
+    return fail(ErrorCode::BadOption,
+                "a calibration needs the sensor's own numbers; record into a folder (OUT without "
+                ".oni), and calibrate from that");
+  }
+  for (const char* list : {"depth.txt", "associations.txt"}) {
+    if (fs::exists(arguments.views / list, ignored)) {
+      return viewsOfScan(arguments.views, arguments.options.board, job);
+    }
+  }
+  return readCalibrationFolder(arguments.views);
+}
+
 Expected<nlohmann::json> calibrate(Arguments arguments, bool printing, const Job& job) {
   arguments.options.date = todayUtc();
-  const auto capture = readCalibrationFolder(arguments.views);
+  Job to_the_end = job;
+  if (arguments.live) {
+    if (auto taken = takeViews(arguments, job); !taken) {
+      return tl::unexpected(taken.error());
+    }
+    to_the_end.stop = {};  // Ctrl-C ends the taking of views, not what is made of them
+  }
+  const auto capture = readViews(arguments, to_the_end);
   if (!capture) {
     return tl::unexpected(capture.error());
   }
-  const auto profile = calibrateCameras(*capture, arguments.options, job);
+  const auto profile = calibrateCameras(*capture, arguments.options, to_the_end);
   if (!profile) {
     return tl::unexpected(profile.error());
   }
   std::error_code ignored;
-  const std::filesystem::path file = std::filesystem::is_directory(arguments.out, ignored)
-                                         ? arguments.out / calibrationFileName(*profile)
-                                         : arguments.out;
+  const fs::path out = arguments.out.empty() ? calibrationFolder() : arguments.out;
+  const fs::path file = arguments.out.empty() || fs::is_directory(out, ignored)
+                            ? out / calibrationFileName(*profile)
+                            : out;
   if (auto written = writeCalibration(file, *profile); !written) {
     return tl::unexpected(written.error());
   }
@@ -82,7 +164,8 @@ Expected<nlohmann::json> calibrate(Arguments arguments, bool printing, const Job
                         {"serial", profile->camera.serial},
                         {"date", profile->date},
                         {"color_rms_px", profile->color.rms_px},
-                        {"views_used", profile->color.views}};
+                        {"views_used", profile->color.views},
+                        {"warnings", toJson(profile->warnings)}};
   if (profile->depth) {
     result["depth_rms_px"] = profile->depth->rms_px;
   }
@@ -104,10 +187,30 @@ void addCalibrate(CLI::App& app, Command& command) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* sub =
       addCommand(app, command, "calibrate", "Calibrate a camera from views of a chessboard");
-  sub->add_option("VIEWS", arguments->views, "Folder with color/, ir/ and depth/ of the board")
+  sub->add_option("VIEWS",
+                  arguments->views,
+                  "Folder with color/, ir/ and depth/ of the board, or of a recorded scan of it")
       ->required();
-  sub->add_option("OUT", arguments->out, "The calibration to write (.json), or a folder of them")
-      ->required();
+  sub->add_option(
+      "OUT",
+      arguments->out,
+      "The calibration to write (.json), or a folder of them; else where `record` looks");
+  auto* device =
+      sub->add_option("--device",
+                      arguments->device,
+                      "Take the views now with this camera, into VIEWS (\"\": the first)")
+          ->type_name("URI");
+  auto* simulated =
+      sub->add_option("--simulated", arguments->simulated, "The same from a recorded scan")
+          ->type_name("SCAN")
+          ->excludes(device);
+  sub->add_option(
+         "--views", arguments->wanted_views, "How many views are taken; Ctrl-C ends earlier")
+      ->check(CLI::Range(8, 100))
+      ->capture_default_str();
+  sub->add_flag("!--no-infrared",
+                arguments->infrared,
+                "No infrared pictures are taken: the depth camera's lens stays nominal");
   sub->add_option("--columns", arguments->options.board.columns, "Inner corners across")
       ->capture_default_str();
   sub->add_option("--rows", arguments->options.board.rows, "Inner corners down")
@@ -117,7 +220,8 @@ void addCalibrate(CLI::App& app, Command& command) {
   sub->add_flag("--wall",
                 arguments->options.board_on_wall,
                 "The board lies flat on a wall: the whole wall is compared");
-  sub->callback([&command, arguments] {
+  sub->callback([&command, arguments, device, simulated] {
+    arguments->live = device->count() + simulated->count() > 0;
     command.run = [&command, arguments](const Job& job) {
       return calibrate(*arguments, !command.quiet && command.json_file != "-", job);
     };

@@ -1,9 +1,11 @@
 #include "app/cli/command.h"
-#include "reconstruction/capture/calibration/calibration_profile.h"
+#include "app/user_folders.h"
+#include "reconstruction/capture/frame_preparation.h"
 #include "reconstruction/capture/openni/oni_file.h"
 #include "reconstruction/capture/openni/openni_camera.h"
 #include "reconstruction/capture/openni/openni_library.h"
 #include "reconstruction/capture/scan_recorder.h"
+#include "reconstruction/pipeline/live_scan.h"
 #include "reconstruction/pipeline/model_record.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace tarsus {
@@ -53,46 +56,9 @@ struct RecordArguments {
   fs::path out;
   std::string device;
   fs::path simulated;
-  fs::path calibration;  ///< a profile, or a folder of them; empty: none
+  fs::path calibration;  ///< a profile, or a folder of them; empty: the user's own folder
   double seconds = 20.0;
 };
-
-/// The camera as it will be written, by its calibration where there is one.
-struct KnownCamera {
-  RgbdCamera camera;
-  ScanFacts facts;
-  Warnings warnings;
-};
-
-/// @errors those of readCalibration
-Expected<KnownCamera> knownCamera(const OpenNiCamera& source, const fs::path& calibration) {
-  KnownCamera known{.camera = source.camera(), .facts = {}, .warnings = source.warnings()};
-  if (calibration.empty()) {
-    return known;
-  }
-  std::optional<CalibrationProfile> profile;
-  std::error_code ignored;
-  if (fs::is_directory(calibration, ignored)) {
-    FoundCalibration found = newestCalibration(calibration, known.camera.serial);
-    profile = std::move(found.profile);
-    known.warnings = std::move(found.warnings);
-  } else {
-    auto read = readCalibration(calibration);
-    if (!read) {
-      return tl::unexpected(read.error());
-    }
-    profile = std::move(*read);
-    known.warnings.clear();
-  }
-  const Warnings doubts =
-      doubtsAboutCalibration(profile ? &*profile : nullptr, known.camera, todayUtc());
-  known.warnings.insert(known.warnings.end(), doubts.begin(), doubts.end());
-  if (profile) {
-    known.camera = calibrated(known.camera, *profile);
-    known.facts.depth_correction = profile->depth_correction;
-  }
-  return known;
-}
 
 /// Where the frames go while they come: the folder that is asked for, or one beside the recording.
 fs::path folderFor(const fs::path& out) {
@@ -116,11 +82,60 @@ Expected<void> checkFree(const fs::path& out, const fs::path& folder) {
   return {};
 }
 
+/// Looks at some frames whether their depth can be a foot's: a wrong unit or a broken camera is
+/// told when the scan is taken, not when the patient is gone.
+class DepthLook {
+ public:
+  explicit DepthLook(double units_per_m) : units_per_m_(units_per_m) {}
+  /// On the camera's thread; costs a millisecond for one frame in ten.
+  void add(const RgbdFrame& frame) {
+    constexpr int kEvery = 10;
+    const auto median_mm = frame.index % kEvery == 0 ? medianDepth(frame.depth) : std::nullopt;
+    if (median_mm) {
+      ++looks_;
+      doubtful_ += checkMedianDepth(*median_mm, units_per_m_) ? 0 : 1;
+    }
+  }
+  [[nodiscard]] Warnings warnings() const {
+    if (doubtful_ == 0) {
+      return {};
+    }
+    return {{"depth_implausible",
+             "In " + std::to_string(doubtful_) + " of " + std::to_string(looks_) +
+                 " frames that were looked at, the depth lies outside 0.15 to 2 m: the depth unit "
+                 "is wrong, the camera is broken, or it does not look at a foot. Check it with a "
+                 "phantom."}};
+  }
+
+ private:
+  double units_per_m_;
+  int looks_ = 0;
+  int doubtful_ = 0;
+};
+
+/// What went wrong while the frames came.
+Warnings troubles(const CaptureCounts& captured, int dropped) {
+  Warnings warnings;
+  if (captured.unplugged > 0) {
+    warnings.push_back({"camera_unplugged",
+                        "The camera was unplugged " + std::to_string(captured.unplugged) +
+                            (captured.unplugged == 1 ? " time" : " times") +
+                            "; the scan goes on after the gap. Look whether the foot is seen "
+                            "whole, or take the scan again."});
+  }
+  if (dropped > 0) {
+    warnings.push_back({"frames_dropped",
+                        std::to_string(dropped) +
+                            " frames were lost between the camera and the disk. Where there are "
+                            "many, close other programs, and plug the camera into a port of its "
+                            "own."});
+  }
+  return warnings;
+}
+
 /// Until the time is over, the camera fails for good, the disk is full, or Ctrl-C.
-Expected<void> recordFrames(OpenNiCamera& camera,
-                            ScanRecorder& recorder,
-                            double seconds,
-                            const Job& job) {
+Expected<void> recordFrames(
+    OpenNiCamera& camera, ScanRecorder& recorder, DepthLook& look, double seconds, const Job& job) {
   constexpr auto kLook = std::chrono::milliseconds(50);
   constexpr auto kWithout = std::chrono::seconds(10);  // to plug a camera in again
   std::optional<std::chrono::microseconds> first;
@@ -131,6 +146,7 @@ Expected<void> recordFrames(OpenNiCamera& camera,
     first = first.value_or(frame.timestamp);
     const std::int64_t at_us = (frame.timestamp - *first).count();
     if (at_us < wanted_us - half_us) {
+      look.add(frame);
       recorder.add(std::make_shared<const RgbdFrame>(std::move(frame)));
     }
     passed_us = at_us;
@@ -170,7 +186,10 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
   if (!camera) {
     return tl::unexpected(camera.error());
   }
-  const auto known = knownCamera(**camera, arguments.calibration);
+  const auto known =
+      knownCamera(**camera,
+                  arguments.calibration.empty() ? calibrationFolder() : arguments.calibration,
+                  todayUtc());
   if (!known) {
     return tl::unexpected(known.error());
   }
@@ -179,7 +198,8 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
-  const auto recorded = recordFrames(**camera, **recorder, arguments.seconds, job);
+  DepthLook look(known->camera.depth_units_per_m);
+  const auto recorded = recordFrames(**camera, **recorder, look, arguments.seconds, job);
   auto finished = (*recorder)->finish();
   const RecorderCounts kept = (*recorder)->counts();
   if (!recorded || !finished) {
@@ -203,6 +223,10 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
     fs::remove_all(folder, ignored);
   }
   const int dropped = counts.dropped + kept.dropped;
+  Warnings warnings = known->warnings;
+  for (const Warnings& more : {troubles(counts, dropped), look.warnings()}) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
   if (print) {
     std::printf("Wrote %s: %d frames, %.0f MB; %d dropped, %d without colour\n",
                 arguments.out.c_str(),
@@ -210,7 +234,7 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
                 kept.megabytes,
                 dropped,
                 counts.unpaired);
-    for (const Warning& warning : known->warnings) {
+    for (const Warning& warning : warnings) {
       std::printf("  %s\n", warning.text.c_str());
     }
   }
@@ -219,7 +243,7 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
                         {"unpaired", counts.unpaired},
                         {"times_unplugged", counts.unplugged},
                         {"megabytes", kept.megabytes},
-                        {"warnings", toJson(known->warnings)}};
+                        {"warnings", toJson(warnings)}};
 }
 
 }  // namespace
@@ -250,9 +274,10 @@ void addRecord(CLI::App& app, Command& command) {
   sub->add_option("--simulated", arguments->simulated, "A recorded scan that stands for a camera")
       ->type_name("SCAN")
       ->excludes(device);
-  sub->add_option("--calibration",
-                  arguments->calibration,
-                  "What `calibrate` wrote, or a folder of it: the camera's newest is taken")
+  sub->add_option(
+         "--calibration",
+         arguments->calibration,
+         "What `calibrate` wrote, or a folder of it; else the newest of this camera is taken")
       ->type_name("FILE");
   sub->add_option("--seconds", arguments->seconds, "How long; Ctrl-C ends it earlier")
       ->check(CLI::Range(0.1, 600.0))

@@ -20,8 +20,8 @@ constexpr std::size_t kMostWaiting = 3;
 
 /// One scan from begin to end.
 struct Tracked {
-  Tracked(const RgbdCamera& sensor, const LiveScanOptions& options)
-      : preparation(sensor, {}),
+  Tracked(const KnownCamera& known, const LiveScanOptions& options)
+      : preparation(known.camera, known.facts.depth_correction.value_or(DepthCorrection{})),
         session(preparation.camera(), options.tracking, options.live),
         guide(options.guide) {}
 
@@ -34,6 +34,7 @@ struct Tracked {
 struct LiveScan::State {
   LiveScanOptions options;
   std::unique_ptr<OpenNiCamera> camera;
+  KnownCamera known;
 
   mutable std::mutex mutex;  ///< guards all to the next empty line
   std::condition_variable_any changed;
@@ -155,6 +156,24 @@ Expected<void> LiveScan::State::end() {
   return finished;
 }
 
+Expected<KnownCamera> knownCamera(const OpenNiCamera& camera,
+                                  const std::filesystem::path& calibration,
+                                  std::string_view today) {
+  auto known = knownCamera(camera.camera(), calibration, today);
+  if (!known) {
+    return known;
+  }
+  if (camera.describesItself()) {
+    std::erase_if(known->warnings,
+                  [](const Warning& w) { return w.code == "calibration_missing"; });
+  }
+  if (!known->facts.depth_correction) {  // it tells the unit too
+    const Warnings& doubts = camera.warnings();
+    known->warnings.insert(known->warnings.end(), doubts.begin(), doubts.end());
+  }
+  return known;
+}
+
 Expected<std::unique_ptr<LiveScan>> LiveScan::open(const std::string& uri,
                                                    const LiveScanOptions& options) {
   auto camera = OpenNiCamera::open(uri);
@@ -165,6 +184,11 @@ Expected<std::unique_ptr<LiveScan>> LiveScan::open(const std::string& uri,
   state->options = options;
   state->idle_guide = ScanGuide(options.guide);
   state->camera = std::move(*camera);
+  auto known = knownCamera(*state->camera, options.calibration, options.today);
+  if (!known) {
+    return tl::unexpected(known.error());
+  }
+  state->known = std::move(*known);
   const auto started =
       state->camera->start([s = state.get()](RgbdFrame frame) { s->take(std::move(frame)); });
   if (!started) {
@@ -181,17 +205,19 @@ LiveScan::~LiveScan() {
 }
 
 const OpenNiCamera& LiveScan::camera() const { return *state_->camera; }
+const KnownCamera& LiveScan::known() const { return state_->known; }
 
 Expected<void> LiveScan::begin(const std::filesystem::path& folder) {
   if (auto ended = end(); !ended) {
     return ended;
   }
-  const RgbdCamera& sensor = state_->camera->camera();
-  auto recorder = ScanRecorder::create(folder, sensor, state_->options.guide.scan_s);
+  const KnownCamera& known = state_->known;
+  auto recorder = ScanRecorder::create(
+      folder, known.camera, state_->options.guide.scan_s, {.facts = known.facts});
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
-  auto tracked = std::make_shared<Tracked>(sensor, state_->options);
+  auto tracked = std::make_shared<Tracked>(known, state_->options);
   {
     const std::scoped_lock lock(state_->mutex);
     state_->view.recorded = {};

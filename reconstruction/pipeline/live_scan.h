@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reconstruction/capture/depth_correction.h"
+#include "reconstruction/capture/calibration/known_camera.h"
 #include "reconstruction/capture/openni/openni_camera.h"
 #include "reconstruction/capture/scan_recorder.h"
 #include "reconstruction/pipeline/coverage.h"
@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace tarsus {
 
@@ -18,7 +19,9 @@ struct LiveScanOptions {
   TrackingOptions tracking;
   LiveOptions live;
   CoverageOptions coverage;
-  double coverage_every_s = 2.0;  ///< of the scan; it costs 0.1 to 0.5 s of one core
+  std::filesystem::path calibration;  ///< as knownCamera takes it
+  std::string today;                  ///< ISO 8601, for the calibration's age
+  double coverage_every_s = 2.0;      ///< of the scan; it costs 0.1 to 0.5 s of one core
 };
 
 /// What a screen shows at one moment; images and surfaces are shared and never change.
@@ -34,13 +37,20 @@ struct LiveView {
   std::shared_ptr<const Coverage> coverage;    ///< null at first
 };
 
+/// A camera that is plugged in, by its calibration (see the other knownCamera). A simulated camera
+/// describes itself: that it was never calibrated is no warning.
+/// @errors those of readCalibration, for a profile that is named
+[[nodiscard]] Expected<KnownCamera> knownCamera(const OpenNiCamera& camera,
+                                                const std::filesystem::path& calibration,
+                                                std::string_view today);
+
 /// A scan as it is taken: camera, recording, tracking, growing surface, coverage and guidance, each
 /// in a thread of its own, so that the camera never waits. Before `begin` only camera and distance
 /// band are live. Recording comes first: where tracking cannot keep up it passes frames over.
 class LiveScan {
  public:
   /// @param uri  as OpenNiCamera::open
-  /// @errors those of OpenNiCamera::open and start
+  /// @errors those of OpenNiCamera::open and start, and of knownCamera
   [[nodiscard]] static Expected<std::unique_ptr<LiveScan>> open(
       const std::string& uri, const LiveScanOptions& options = {});
   ~LiveScan();
@@ -50,6 +60,8 @@ class LiveScan {
   LiveScan& operator=(LiveScan&&) = delete;
 
   [[nodiscard]] const OpenNiCamera& camera() const;
+  /// The same by its calibration, and what there is to say of it.
+  [[nodiscard]] const KnownCamera& known() const;
   /// Records and tracks from the next frame on; an earlier scan of this object is finished first.
   /// @errors those of ScanRecorder::create
   [[nodiscard]] Expected<void> begin(const std::filesystem::path& folder);

@@ -108,6 +108,58 @@ TEST_F(CliRecord, KeepsWhatACameraWithAWrongUnitGaveAndSaysSo) {
   EXPECT_TRUE(fs::exists(file("wrong/depth.txt")));
 }
 
+/// What a camera does wrong, and what `record` says of it.
+struct Fault {
+  const char* name;
+  const char* fault;
+  int exit_code;
+  const char* said;
+};
+
+class CliRecordFault : public CliRecord, public testing::WithParamInterface<Fault> {};
+
+/// Frames that a scan folder lists; each of their images is there.
+int framesIn(const fs::path& folder) {
+  std::ifstream list(folder / "depth.txt");
+  int frames = 0;
+  for (std::string line; std::getline(list, line);) {
+    if (!line.starts_with('#')) {
+      const std::string name = line.substr(line.find(' ') + 1);
+      EXPECT_TRUE(fs::exists(folder / name)) << name;
+      ++frames;
+    }
+  }
+  return frames;
+}
+
+TEST_P(CliRecordFault, IsToldAndNothingThatWasRecordedIsLost) {
+  const Fault& fault = GetParam();
+  const std::string name = std::string("fault-") + fault.name;
+  const CliRun run = cli("record " + file(name) + " --device \"tarsus:" + file("foot") +
+                         "?fault=" + fault.fault + "\" --seconds 3 --json " + file(name + ".json"));
+  EXPECT_EQ(run.exit_code, fault.exit_code) << run.output;
+  const std::string text = readJson(name + ".json").dump();
+  EXPECT_NE(text.find(fault.said), std::string::npos) << text;
+  const int frames = framesIn(file(name));
+  EXPECT_GE(frames, 4);  // of the first second, at 6 Hz; a busy machine may miss some
+  const std::string kept = fault.exit_code == 0
+                               ? "\"frames\":" + std::to_string(frames) + ","
+                               : "the first " + std::to_string(frames) + " frames are kept";
+  EXPECT_NE(text.find(kept), std::string::npos) << text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults,
+    CliRecordFault,
+    testing::Values(Fault{"UnpluggedAndBack", "unplug,1,2", 0, "The camera was unplugged 1 time"},
+                    Fault{"UnpluggedForGood", "unplug,1", 1, "no frame came for 10 s"},
+                    Fault{"Stalled", "stall,1,2", 0, "lost between the camera and the disk"},
+                    Fault{"StalledForGood", "stall,1", 1, "no frame came for 10 s"},
+                    Fault{"Drops", "drop", 0, "lost between the camera and the disk"},
+                    Fault{"Unit", "unit", 0, "the depth unit is wrong"},
+                    Fault{"Garbage", "garbage,1,2", 0, "the camera is broken"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
 TEST_F(CliRecord, SaysWhereNoCameraIs) {
   for (const std::string& camera :
        {std::string("--device usb://1/2"), "--simulated " + file("nowhere")}) {

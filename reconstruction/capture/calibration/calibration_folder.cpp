@@ -1,11 +1,14 @@
 #include "reconstruction/capture/calibration/calibration_folder.h"
 
 #include "reconstruction/base/parallel.h"
+#include "reconstruction/capture/calibration/view_collector.h"
 #include "reconstruction/capture/camera_file.h"
+#include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/image_file.h"
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -66,17 +69,14 @@ std::vector<ViewFiles> evenly(const std::map<std::string, ViewFiles>& views, War
   return chosen;
 }
 
+constexpr double kPlainUnits_per_m = 1000.0;  ///< so that mm are units
+
 Expected<RawImage> readRawDepth(const fs::path& path) {
-  constexpr double kUnitsPerM = 1000.0;  // so that mm are units
-  const auto units = readDepthImage(path, kUnitsPerM);
+  const auto units = readDepthImage(path, kPlainUnits_per_m);
   if (!units) {
     return tl::unexpected(units.error());
   }
-  RawImage image(units->width(), units->height());
-  std::ranges::transform(units->pixels(), image.pixels().begin(), [](float value) {
-    return static_cast<std::uint16_t>(std::lround(value));
-  });
-  return image;
+  return rawDepth(*units, kPlainUnits_per_m);
 }
 
 /// Grey levels of 8 or 16 bits.
@@ -110,7 +110,83 @@ Image imageOf(const fs::path& path, Read read, Warnings& warnings) {
   return std::move(*image);
 }
 
+/// The same numbers as a depth image that is written with the plain unit.
+DepthImage asDepth(const RawImage& raw) {
+  DepthImage depth(raw.width(), raw.height());
+  std::ranges::transform(raw.pixels(), depth.pixels().begin(), [](std::uint16_t value) {
+    return static_cast<float>(value);
+  });
+  return depth;
+}
+
 }  // namespace
+
+RawImage rawDepth(const DepthImage& depth_mm, double units_per_m) {
+  RawImage image(depth_mm.width(), depth_mm.height());
+  const double units_per_mm = units_per_m / 1000.0;
+  std::ranges::transform(depth_mm.pixels(), image.pixels().begin(), [&](float mm) {
+    return static_cast<std::uint16_t>(std::clamp(std::lround(mm * units_per_mm), 0L, 65535L));
+  });
+  return image;
+}
+
+Expected<void> writeCalibrationView(const fs::path& folder, const CalibrationView& view) {
+  const std::string file = view.name + ".png";
+  Expected<void> written;
+  if (view.color.width() > 0) {
+    written = writeColorImage(folder / "color" / file, view.color);
+  }
+  if (written && view.infrared.width() > 0) {
+    written = writeDepthImage(folder / "ir" / file, asDepth(view.infrared), kPlainUnits_per_m);
+  }
+  if (written && view.depth.width() > 0) {
+    written = writeDepthImage(folder / "depth" / file, asDepth(view.depth), kPlainUnits_per_m);
+  }
+  return written;
+}
+
+Expected<CalibrationCapture> viewsOfScan(const fs::path& scan,
+                                         const Chessboard& board,
+                                         const Job& job) {
+  constexpr auto kLookEvery = std::chrono::milliseconds(100);  // a look takes as long
+  auto camera = readCamera(scan / "camera.json");
+  if (!camera) {
+    return tl::unexpected(camera.error());
+  }
+  const auto files = listFrames(scan);
+  if (!files) {
+    return tl::unexpected(files.error());
+  }
+  CalibrationCapture capture{.nominal = *camera, .views = {}, .warnings = {}};
+  ViewCollector collector(board, camera->color.width);
+  std::optional<std::chrono::microseconds> before;
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    const FrameFiles& frame = (*files)[i];
+    if (job.stopped()) {
+      return fail(ErrorCode::Cancelled, "while views were looked for");
+    }
+    job.report("find views", static_cast<double>(i) / static_cast<double>(files->size()));
+    if (frame.color.empty() || (before && frame.timestamp - *before < kLookEvery)) {
+      continue;
+    }
+    before = frame.timestamp;
+    auto color = readColorImage(frame.color);
+    if (!color || collector.add(frame.timestamp, *color) != BoardLook::Taken) {
+      continue;
+    }
+    capture.views.push_back(
+        {.name = frame.depth.stem().string(),
+         .color = std::move(*color),
+         .infrared = {},
+         .depth = imageOf<RawImage>(frame.depth, readRawDepth, capture.warnings)});
+  }
+  if (capture.views.empty()) {
+    return fail(ErrorCode::CalibrationFailed,
+                "in none of the " + std::to_string(files->size()) + " frames of " + scan.string() +
+                    " is the whole board seen and held still");
+  }
+  return capture;
+}
 
 Expected<CalibrationCapture> readCalibrationFolder(const fs::path& folder,
                                                    std::optional<RgbdCamera> nominal) {

@@ -23,4 +23,19 @@ namespace tarsus {
 [[nodiscard]] Expected<CalibrationCapture> readCalibrationFolder(
     const std::filesystem::path& folder, std::optional<RgbdCamera> nominal = std::nullopt);
 
+/// Writes one view into such a folder; pictures that are empty are left out.
+/// @errors FileUnwritable, DiskFull
+[[nodiscard]] Expected<void> writeCalibrationView(const std::filesystem::path& folder,
+                                                  const CalibrationView& view);
+
+/// The depth of a frame as the sensor's numbers.
+[[nodiscard]] RawImage rawDepth(const DepthImage& depth_mm, double units_per_m);
+
+/// Chooses views among the frames of a recorded scan in which a board was held still in many ways.
+/// It holds no infrared pictures, so the depth camera stays nominal.
+/// @errors those of readCamera and listFrames; CalibrationFailed (no view), Cancelled
+[[nodiscard]] Expected<CalibrationCapture> viewsOfScan(const std::filesystem::path& scan,
+                                                       const Chessboard& board,
+                                                       const Job& job = {});
+
 }  // namespace tarsus

@@ -39,7 +39,7 @@ Expected<CameraFacts> cameraFacts(const DriverFacts& driver) {
     if (!camera) {
       return tl::unexpected(camera.error());
     }
-    return CameraFacts{.camera = std::move(*camera), .warnings = {}};
+    return CameraFacts{.camera = std::move(*camera), .warnings = {}, .describes_itself = true};
   }
   CameraFacts facts;
   RgbdCamera& camera = facts.camera;
@@ -64,9 +64,6 @@ Expected<CameraFacts> cameraFacts(const DriverFacts& driver) {
   if (profile != nullptr && profile->depth) {
     camera.depth = scaledTo(*profile->depth, driver.depth_width, driver.depth_height);
   }
-  facts.warnings.push_back({"camera_not_calibrated",
-                            "This camera has not been calibrated; sizes may be wrong by some per "
-                            "cent. Calibrate it, or check it with a phantom."});
   return facts;
 }
 

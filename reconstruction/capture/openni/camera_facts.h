@@ -25,6 +25,7 @@ struct DriverFacts {
 struct CameraFacts {
   RgbdCamera camera;
   Warnings warnings;
+  bool describes_itself = false;  ///< by its own camera.json: no calibration is looked for
 };
 
 /// What is to be believed of it: a simulated camera's own camera.json; else the profile of its

@@ -245,7 +245,7 @@ bool OniSource::readOne() {
   if (!image) {
     return false;
   }
-  if (image->is_depth) {
+  if (image->kind == SensorImage::Kind::Depth) {
     pairing_->add(image->time, std::move(image->depth));
     depth_ended_ = image->index >= depth_frames_;
   } else {

@@ -1,5 +1,6 @@
 #include "reconstruction/capture/openni/openni_camera.h"
 
+#include "reconstruction/base/require.h"
 #include "reconstruction/capture/openni/camera_facts.h"
 #include "reconstruction/capture/openni/openni_frames.h"
 #include "reconstruction/capture/openni/openni_library.h"
@@ -134,6 +135,7 @@ struct OpenNiCamera::State {
   // These on it.
   Expected<void> openHere();
   Expected<void> createStreams();
+  Expected<InfraredImage> infraredHere();
   [[nodiscard]] DriverFacts factsHere();
 
   void run(const std::stop_token& stop);
@@ -255,6 +257,36 @@ void OpenNiCamera::State::close() {
   });
 }
 
+Expected<InfraredImage> OpenNiCamera::State::infraredHere() {
+  constexpr auto kMost = milliseconds(2000);
+  const auto* sensor = device.getSensorInfo(openni::SENSOR_IR);
+  const auto mode = sensor == nullptr
+                        ? std::nullopt
+                        : bestMode(*sensor,
+                                   {openni::PIXEL_FORMAT_GRAY16, openni::PIXEL_FORMAT_GRAY8},
+                                   static_cast<int>(facts.camera.frames_per_s));
+  openni::VideoStream stream;
+  if (!mode || stream.create(device, openni::SENSOR_IR) != openni::STATUS_OK) {
+    return fail(ErrorCode::CameraFailed, uri + " gives no infrared pictures");
+  }
+  stream.setVideoMode(*mode);
+  stream.setMirroringEnabled(false);
+  color.stop();
+  std::optional<SensorImage> image;
+  if (stream.start() == openni::STATUS_OK) {
+    image = readAny({&stream}, kMost, facts.camera.depth_units_per_m);
+    stream.stop();
+  }
+  std::this_thread::sleep_for(kSettle);
+  stream.destroy();
+  const bool goes_on = color.start() == openni::STATUS_OK;
+  if (!image || !goes_on) {
+    return fail(ErrorCode::CameraFailed,
+                uri + (image ? ": colour did not start again" : ": no infrared picture came"));
+  }
+  return std::move(image->infrared);
+}
+
 void OpenNiCamera::State::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (!plug->there()) {
@@ -307,14 +339,15 @@ void OpenNiCamera::State::take(SensorImage image) {
   const auto fits = [](const auto& picture, const Intrinsics& lens) {
     return picture.width() == lens.width && picture.height() == lens.height;
   };
-  if (image.is_depth && fits(image.depth, facts.camera.depth) && image.time > last_time) {
+  if (image.kind == SensorImage::Kind::Depth && fits(image.depth, facts.camera.depth) &&
+      image.time > last_time) {
     const int missing = last_sensor_index >= 0 ? image.index - last_sensor_index - 1 : 0;
     last_sensor_index = image.index;
     last_time = image.time;
     pairing->add(image.time, std::move(image.depth));
     const std::scoped_lock lock(mutex);
     counts.dropped += std::max(0, missing);
-  } else if (!image.is_depth && fits(image.color, facts.camera.color)) {
+  } else if (image.kind == SensorImage::Kind::Color && fits(image.color, facts.camera.color)) {
     pairing->add(image.time, std::move(image.color));
   }
   handOn(false);
@@ -368,6 +401,7 @@ OpenNiCamera::~OpenNiCamera() = default;
 
 const RgbdCamera& OpenNiCamera::camera() const { return state_->facts.camera; }
 const Warnings& OpenNiCamera::warnings() const { return state_->facts.warnings; }
+bool OpenNiCamera::describesItself() const { return state_->facts.describes_itself; }
 
 Expected<void> OpenNiCamera::start(std::function<void(RgbdFrame)> take) {
   stop();
@@ -396,6 +430,19 @@ void OpenNiCamera::stop() {
     state_->stopStreams();
     state_->now = CameraState::Stopped;
   }
+}
+
+bool OpenNiCamera::hasInfrared() const {
+  bool there = false;
+  onOpenNiThread([&] { there = state_->device.hasSensor(openni::SENSOR_IR); });
+  return there;
+}
+
+Expected<InfraredImage> OpenNiCamera::infrared() {
+  TARSUS_REQUIRE(state_->thread.joinable(), "the camera runs");
+  Expected<InfraredImage> image;
+  onOpenNiThread([&] { image = state_->infraredHere(); });
+  return image;
 }
 
 CameraState OpenNiCamera::state() const { return state_->now; }

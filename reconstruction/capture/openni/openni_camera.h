@@ -3,6 +3,7 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/frame.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,14 +42,22 @@ class OpenNiCamera {
 
   /// As the sensor is: with distortion. From the calibration, or nominal (see warnings).
   [[nodiscard]] const RgbdCamera& camera() const;
-  /// What is doubtful about it: `camera_not_calibrated`, `depth_unit_assumed`, `device_unknown`.
+  /// What is doubtful about it beside its calibration: `depth_unit_assumed`.
   [[nodiscard]] const Warnings& warnings() const;
+  /// A simulated camera knows its own lenses; of others only a calibration tells them.
+  [[nodiscard]] bool describesItself() const;
 
   /// Frames come from a thread of the camera's own until `stop` returns; what is called must not
   /// take longer than a frame's period, or frames are dropped. Numbered from 0 without gaps.
   /// @errors CameraFailed
   [[nodiscard]] Expected<void> start(std::function<void(RgbdFrame)> take);
   void stop();
+  [[nodiscard]] bool hasInfrared() const;
+  /// One picture of the depth camera's infrared sensor, as deep as it gives it, while the camera
+  /// runs. Colour stands still meanwhile (many cameras give only one of both), and depth frames are
+  /// missed. At most two seconds.
+  /// @errors CameraFailed (no such sensor, or it gives no picture)
+  [[nodiscard]] Expected<Image<std::uint16_t>> infrared();
   [[nodiscard]] CameraState state() const;
   [[nodiscard]] CaptureCounts counts() const;
 

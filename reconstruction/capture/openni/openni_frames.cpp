@@ -44,6 +44,30 @@ ColorImage colorOf(const openni::VideoFrameRef& frame) {
   return color;
 }
 
+/// 8 or 16 bits.
+InfraredImage infraredOf(const openni::VideoFrameRef& frame) {
+  InfraredImage infrared(frame.getWidth(), frame.getHeight());
+  const bool deep = frame.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_GRAY16;
+  for (int v = 0; v < infrared.height(); ++v) {
+    for (int u = 0; u < infrared.width(); ++u) {
+      infrared.at(u, v) =
+          deep ? rowOf<std::uint16_t>(frame, v)[u] : rowOf<std::uint8_t>(frame, v)[u];
+    }
+  }
+  return infrared;
+}
+
+SensorImage::Kind kindOf(openni::SensorType sensor) {
+  switch (sensor) {
+    case openni::SENSOR_DEPTH:
+      return SensorImage::Kind::Depth;
+    case openni::SENSOR_IR:
+      return SensorImage::Kind::Infrared;
+    default:
+      return SensorImage::Kind::Color;
+  }
+}
+
 }  // namespace
 
 FramePairing::FramePairing(double frames_per_s)
@@ -100,15 +124,22 @@ std::optional<SensorImage> readAny(std::vector<openni::VideoStream*> streams,
     return std::nullopt;
   }
   SensorImage image{
-      .is_depth = frame.getSensorType() == openni::SENSOR_DEPTH,
+      .kind = kindOf(frame.getSensorType()),
       .index = frame.getFrameIndex(),
       .time = std::chrono::microseconds(static_cast<std::int64_t>(frame.getTimestamp())),
       .depth = {},
-      .color = {}};
-  if (image.is_depth) {
-    image.depth = depthOf(frame, units_per_m);
-  } else {
-    image.color = colorOf(frame);
+      .color = {},
+      .infrared = {}};
+  switch (image.kind) {
+    case SensorImage::Kind::Depth:
+      image.depth = depthOf(frame, units_per_m);
+      break;
+    case SensorImage::Kind::Infrared:
+      image.infrared = infraredOf(frame);
+      break;
+    case SensorImage::Kind::Color:
+      image.color = colorOf(frame);
+      break;
   }
   return image;
 }

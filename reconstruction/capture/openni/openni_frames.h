@@ -3,6 +3,7 @@
 #include "reconstruction/scene/frame.h"
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -33,13 +34,18 @@ class FramePairing {
   std::deque<Color> color_;
 };
 
+/// Grey levels of an infrared sensor.
+using InfraredImage = Image<std::uint16_t>;
+
 /// One image as a stream gave it.
 struct SensorImage {
-  bool is_depth = false;
+  enum class Kind { Depth, Color, Infrared };
+  Kind kind = Kind::Depth;
   int index = 0;  ///< the sensor's own count
   std::chrono::microseconds time{};
   DepthImage depth;
   ColorImage color;
+  InfraredImage infrared;
 };
 
 /// The next image of any of the streams; on OpenNI's thread (openni_library.h).

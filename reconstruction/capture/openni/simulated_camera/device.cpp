@@ -18,6 +18,19 @@ OniStatus give(Value value, void* data, int* size) {
   return ONI_STATUS_OK;
 }
 
+int bytesOfPixel(OniSensorType sensor) { return sensor == ONI_SENSOR_COLOR ? 3 : 2; }
+
+const void* dataOf(const SensorImages& images, OniSensorType sensor) {
+  switch (sensor) {
+    case ONI_SENSOR_DEPTH:
+      return images.depth != nullptr ? images.depth->data() : nullptr;
+    case ONI_SENSOR_IR:
+      return images.infrared != nullptr ? images.infrared->data() : nullptr;
+    default:
+      return images.color != nullptr ? static_cast<const void*>(images.color->data()) : nullptr;
+  }
+}
+
 float fieldOfView(int pixels, double focal_px) {
   return static_cast<float>(2.0 * std::atan(0.5 * pixels / focal_px));
 }
@@ -60,7 +73,7 @@ OniBool SimulatedStream::isPropertySupported(int property) {
 
 OniStatus SimulatedStream::getProperty(int property, void* data, int* size) {
   const Intrinsics& lens =
-      sensor_ == ONI_SENSOR_DEPTH ? device_.camera().depth : device_.camera().color;
+      sensor_ == ONI_SENSOR_COLOR ? device_.camera().color : device_.camera().depth;
   switch (property) {
     case ONI_STREAM_PROPERTY_CROPPING:
       return give(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data, size);
@@ -71,7 +84,7 @@ OniStatus SimulatedStream::getProperty(int property, void* data, int* size) {
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
       return give(fieldOfView(lens.height, lens.fy_px), data, size);
     case ONI_STREAM_PROPERTY_STRIDE:
-      return give(mode_.resolutionX * (sensor_ == ONI_SENSOR_DEPTH ? 2 : 3), data, size);
+      return give(mode_.resolutionX * bytesOfPixel(sensor_), data, size);
     case ONI_STREAM_PROPERTY_MIRRORING:
       return give(static_cast<OniBool>(FALSE), data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
@@ -95,13 +108,7 @@ OniStatus SimulatedStream::setProperty(int property, const void* data, int size)
 
 void SimulatedStream::show(const SensorImages& images) {
   const std::scoped_lock lock(showing_);
-  const bool depth = sensor_ == ONI_SENSOR_DEPTH;
-  const void* data = nullptr;
-  if (depth && images.depth != nullptr) {
-    data = images.depth->data();
-  } else if (!depth && images.color != nullptr) {
-    data = images.color->data();
-  }
+  const void* data = dataOf(images, sensor_);
   if (!running_ || data == nullptr) {
     return;
   }
@@ -118,7 +125,7 @@ void SimulatedStream::show(const SensorImages& images) {
   frame->croppingEnabled = FALSE;
   frame->cropOriginX = 0;
   frame->cropOriginY = 0;
-  frame->stride = mode_.resolutionX * (depth ? 2 : 3);
+  frame->stride = mode_.resolutionX * bytesOfPixel(sensor_);
   const int bytes = frame->stride * mode_.resolutionY;
   std::memcpy(frame->data, data, static_cast<std::size_t>(std::min(bytes, frame->dataSize)));
   frame->dataSize = bytes;
@@ -136,21 +143,25 @@ SimulatedDevice::SimulatedDevice(std::unique_ptr<FramePlayer> player,
   const int fps = std::max(1, static_cast<int>(std::lround(camera.frames_per_s)));
   // The SR300's driver calls its steps of 0.125 mm a millimetre; here too the format says nothing.
   modes_ = {OniVideoMode{ONI_PIXEL_FORMAT_DEPTH_1_MM, camera.depth.width, camera.depth.height, fps},
-            OniVideoMode{ONI_PIXEL_FORMAT_RGB888, camera.color.width, camera.color.height, fps}};
+            OniVideoMode{ONI_PIXEL_FORMAT_RGB888, camera.color.width, camera.color.height, fps},
+            OniVideoMode{ONI_PIXEL_FORMAT_GRAY16, camera.depth.width, camera.depth.height, fps}};
   sensors_ = {OniSensorInfo{ONI_SENSOR_DEPTH, 1, modes_.data()},
-              OniSensorInfo{ONI_SENSOR_COLOR, 1, modes_.data() + 1}};
+              OniSensorInfo{ONI_SENSOR_COLOR, 1, modes_.data() + 1},
+              OniSensorInfo{ONI_SENSOR_IR, 1, modes_.data() + 2}};
 }
 
 SimulatedDevice::~SimulatedDevice() { player_->stop(); }
 
 OniStatus SimulatedDevice::getSensorInfoList(OniSensorInfo** sensors, int* count) {
   *sensors = sensors_.data();
-  *count = static_cast<int>(sensors_.size());
+  *count = player_->hasInfrared() ? 3 : 2;
   return ONI_STATUS_OK;
 }
 
 oni::driver::StreamBase* SimulatedDevice::createStream(OniSensorType sensor) {
-  if (sensor != ONI_SENSOR_DEPTH && sensor != ONI_SENSOR_COLOR) {
+  const bool there = sensor == ONI_SENSOR_DEPTH || sensor == ONI_SENSOR_COLOR ||
+                     (sensor == ONI_SENSOR_IR && player_->hasInfrared());
+  if (!there) {
     return nullptr;
   }
   const std::scoped_lock lock(list_);
@@ -182,7 +193,12 @@ OniStatus SimulatedDevice::getProperty(int property, void* data, int* size) {
 }
 
 OniVideoMode SimulatedDevice::modeOf(OniSensorType sensor) const {
-  return modes_[sensor == ONI_SENSOR_DEPTH ? 0 : 1];
+  for (const OniSensorInfo& info : sensors_) {
+    if (info.sensorType == sensor) {
+      return *info.pSupportedVideoModes;
+    }
+  }
+  return modes_.front();
 }
 
 std::vector<std::shared_ptr<SimulatedStream>> SimulatedDevice::streams() {
@@ -192,7 +208,10 @@ std::vector<std::shared_ptr<SimulatedStream>> SimulatedDevice::streams() {
 
 void SimulatedDevice::streamsChanged() {
   const std::scoped_lock lock(control_);
-  const bool wanted = std::ranges::any_of(streams(), [](const auto& s) { return s->running(); });
+  const auto all = streams();
+  const bool wanted = std::ranges::any_of(all, [](const auto& s) { return s->running(); });
+  player_->wantInfrared(std::ranges::any_of(
+      all, [](const auto& s) { return s->running() && s->sensor() == ONI_SENSOR_IR; }));
   if (wanted && !playing_) {
     player_->start([this](const SensorImages& images) {
       for (const auto& stream : streams()) {

@@ -18,7 +18,7 @@
 
 namespace tarsus {
 
-/// Depth or colour of a simulated camera, as OpenNI sees it.
+/// Depth, colour or infrared of a simulated camera, as OpenNI sees it.
 class SimulatedStream final : public oni::driver::StreamBase {
  public:
   SimulatedStream(class SimulatedDevice& device, OniSensorType sensor);
@@ -32,6 +32,7 @@ class SimulatedStream final : public oni::driver::StreamBase {
   /// Hands one image on; nothing while the stream is stopped.
   void show(const SensorImages& images);
   [[nodiscard]] bool running() const { return running_; }
+  [[nodiscard]] OniSensorType sensor() const { return sensor_; }
 
  private:
   SimulatedDevice& device_;
@@ -70,8 +71,8 @@ class SimulatedDevice final : public oni::driver::DeviceBase {
 
   std::unique_ptr<FramePlayer> player_;
   std::string serial_;
-  std::array<OniVideoMode, 2> modes_{};
-  std::array<OniSensorInfo, 2> sensors_{};
+  std::array<OniVideoMode, 3> modes_{};     ///< depth, colour, infrared
+  std::array<OniSensorInfo, 3> sensors_{};  ///< the last where the scan has infrared pictures
   std::function<void()> when_first_started_;
   std::mutex list_;  ///< guards `streams_`
   std::vector<std::shared_ptr<SimulatedStream>> streams_;

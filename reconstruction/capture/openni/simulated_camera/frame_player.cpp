@@ -3,11 +3,33 @@
 #include "reconstruction/capture/camera_file.h"
 #include "reconstruction/capture/image_file.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
 
 namespace tarsus {
+namespace {
+
+/// The infrared picture that belongs to a depth image, whether it is there or not.
+std::filesystem::path infraredBeside(const std::filesystem::path& depth) {
+  return depth.parent_path().parent_path() / "ir" / depth.filename();
+}
+
+/// The stored numbers; false where the image cannot be read or has another size.
+bool readNumbers(const std::filesystem::path& path, std::vector<std::uint16_t>& numbers) {
+  // At 1000 units per metre a pixel's depth in mm is its number.
+  const auto image = readDepthImage(path, 1000.0);
+  if (!image || image->pixels().size() != numbers.size()) {
+    return false;
+  }
+  std::ranges::transform(
+      image->pixels(), numbers.begin(), [](float z) { return static_cast<std::uint16_t>(z); });
+  return true;
+}
+
+}  // namespace
 
 Expected<std::unique_ptr<FramePlayer>> FramePlayer::open(const SimulatedAddress& address) {
   auto camera = readCamera(address.scan / "camera.json");
@@ -36,6 +58,9 @@ FramePlayer::FramePlayer(RgbdCamera camera,
   };
   depth_.resize(pixels(camera_.depth));
   color_.resize(pixels(camera_.color));
+  std::error_code ignored;
+  has_infrared_ = std::filesystem::exists(infraredBeside(files_.front().depth), ignored);
+  infrared_.resize(has_infrared_ ? depth_.size() : 0);
 }
 
 void FramePlayer::start(std::function<void(const SensorImages&)> show) {
@@ -52,6 +77,7 @@ void FramePlayer::stop() {
 }
 
 void FramePlayer::run(const std::stop_token& stop) {
+  pthread_setname_np(pthread_self(), kThreadName);
   // Who wants both streams has started them by then, so that none misses the first frame.
   constexpr auto kAllStarted = std::chrono::milliseconds(300);
   const auto begin = std::chrono::steady_clock::now() + kAllStarted;
@@ -89,12 +115,11 @@ std::chrono::microseconds FramePlayer::timeOf(int index) const {
 SensorImages FramePlayer::load(int index) {
   const FrameFiles& files = files_[fileOf(index)];
   SensorImages images{.timestamp = timeOf(index), .index = index + 1};
-  // At 1000 units per metre a pixel's depth in mm is its number.
-  if (const auto depth = readDepthImage(files.depth, 1000.0);
-      depth && depth->pixels().size() == depth_.size()) {
-    std::ranges::transform(
-        depth->pixels(), depth_.begin(), [](float z) { return static_cast<std::uint16_t>(z); });
+  if (readNumbers(files.depth, depth_)) {
     images.depth = &depth_;
+  }
+  if (wants_infrared_ && has_infrared_ && readNumbers(infraredBeside(files.depth), infrared_)) {
+    images.infrared = &infrared_;
   }
   if (const auto color = readColorImage(files.color);
       color && color->pixels().size() == color_.size()) {

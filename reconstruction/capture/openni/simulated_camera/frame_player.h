@@ -5,6 +5,7 @@
 #include "reconstruction/capture/openni/simulated_camera/address.h"
 #include "reconstruction/scene/frame.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -19,19 +20,27 @@ namespace tarsus {
 struct SensorImages {
   std::chrono::microseconds timestamp{};
   int index = 0;
-  const std::vector<std::uint16_t>* depth = nullptr;  ///< units of the camera; null: unreadable
-  const std::vector<Rgb8>* color = nullptr;           ///< null: none, or unreadable
+  const std::vector<std::uint16_t>* depth = nullptr;     ///< units of the camera; null: unreadable
+  const std::vector<Rgb8>* color = nullptr;              ///< null: none, or unreadable
+  const std::vector<std::uint16_t>* infrared = nullptr;  ///< grey levels; null: none, unreadable
 };
 
 /// Plays a scan folder at its own rate, to its end and back again, so that the camera never jumps.
 /// Forwards, the first time, timestamps are those of the scan; later ones go on from there.
 /// A frame is decoded (about 5 ms) in the time left until it is due.
+/// A scan may have an infrared picture beside a depth image: ir/NAME.png beside depth/NAME.png.
 class FramePlayer {
  public:
+  /// Its thread's name, by which a benchmark finds what the camera itself costs.
+  static constexpr const char* kThreadName = "tarsus-camera";
+
   /// @errors those of readCamera and listFrames
   [[nodiscard]] static Expected<std::unique_ptr<FramePlayer>> open(const SimulatedAddress& address);
 
   [[nodiscard]] const RgbdCamera& camera() const { return camera_; }
+  [[nodiscard]] bool hasInfrared() const { return has_infrared_; }
+  /// Decoded only while somebody looks at it.
+  void wantInfrared(bool wanted) { wants_infrared_ = wanted; }
   /// Calls `show` for each frame, from a thread of its own, until `stop` returns.
   void start(std::function<void(const SensorImages&)> show);
   void stop();
@@ -50,9 +59,12 @@ class FramePlayer {
   std::vector<FrameFiles> files_;
   CameraFault fault_;
   bool once_;
+  bool has_infrared_ = false;
+  std::atomic<bool> wants_infrared_ = false;
   std::chrono::microseconds period_{};
   std::vector<std::uint16_t> depth_;
   std::vector<Rgb8> color_;
+  std::vector<std::uint16_t> infrared_;
   std::function<void(const SensorImages&)> show_;
   std::jthread thread_;
 };
