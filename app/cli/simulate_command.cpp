@@ -85,6 +85,35 @@ void addObjectOption(CLI::App& sub, SimulatorOptions& options) {
 
 namespace {
 
+/// For `simulate` alone: the same foot at another visit.
+struct LaterVisit {
+  std::string course;
+  int weeks = 0;
+};
+
+void addVisitOptions(CLI::App& sub, SimulatorOptions& options, LaterVisit& visit) {
+  auto* course = sub.add_option("--healing",
+                                visit.course,
+                                "The same foot at a later visit: its ulcers are shrinking, "
+                                "deepening, filling or splitting")
+                     ->check(CLI::IsMember({"shrinking", "deepening", "filling", "splitting"}))
+                     ->type_name("COURSE");
+  sub.add_option("--week", visit.weeks, "How many weeks after the first visit")
+      ->check(CLI::Range(0, 52))
+      ->needs(course);
+  sub.add_option("--area-factor", options.area_factor, "Openings against the first visit")
+      ->check(CLI::Range(0.01, 4.0))
+      ->excludes(course);
+  sub.add_option("--depth-factor", options.depth_factor, "Depths against the first visit")
+      ->check(CLI::Range(0.01, 4.0))
+      ->excludes(course);
+  sub.add_flag("--split", options.split, "Each ulcer healed across into two")->excludes(course);
+  sub.add_option("--posed",
+                 options.posed,
+                 "Foot, toes, camera and light otherwise, by this number; 0: as at first")
+      ->excludes(course);
+}
+
 /// Turns the frames of a scan folder into scan.oni in it; truth/ stays.
 Expected<void> intoRecording(const std::filesystem::path& folder, const Job& job) {
   if (auto written = writeOniRecording(folder, folder / "scan.oni", job); !written) {
@@ -105,6 +134,7 @@ void addSimulate(CLI::App& app, Command& command) {
     std::filesystem::path out;
     SimulatorOptions options;
     std::string format = "folder";
+    LaterVisit visit;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* sub = addCommand(
@@ -114,11 +144,16 @@ void addSimulate(CLI::App& app, Command& command) {
   sub->add_option("--format", arguments->format, "Frames as a scan folder, or as scan.oni in it")
       ->check(CLI::IsMember({"folder", "oni"}))
       ->capture_default_str();
+  addVisitOptions(*sub, arguments->options, arguments->visit);
   addFaultOption(*sub, arguments->options);
   addObjectOption(*sub, arguments->options);
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) -> Expected<nlohmann::json> {
-      if (auto done = simulateScan(arguments->out, arguments->options, job); !done) {
+      const auto course = healingCourseNamed(arguments->visit.course);
+      const SimulatorOptions options =
+          course ? weeksLater(arguments->options, *course, arguments->visit.weeks)
+                 : arguments->options;
+      if (auto done = simulateScan(arguments->out, options, job); !done) {
         return tl::unexpected(done.error());
       }
       if (arguments->format == "oni") {
@@ -131,9 +166,9 @@ void addSimulate(CLI::App& app, Command& command) {
                   << "; what is true of it is in truth/.\n";
       }
       return nlohmann::json{{"scan", arguments->out.string()},
-                            {"frames", arguments->options.frames},
-                            {"seed", arguments->options.seed},
-                            {"fault", nameOf(arguments->options.fault)}};
+                            {"frames", options.frames},
+                            {"seed", options.seed},
+                            {"fault", nameOf(options.fault)}};
     };
   });
 }

@@ -1,6 +1,7 @@
 #include "reconstruction/capture/simulator/camera_path.h"
 
 #include "reconstruction/capture/simulator/random.h"
+#include "reconstruction/capture/simulator/visit.h"
 
 #include <Eigen/Geometry>
 
@@ -130,8 +131,10 @@ double frameTime(const SimulatorOptions& options, int index) {
   return kMotionSeconds * index / options.frames;
 }
 
-RigidTransform footFromCamera(const SimulatorOptions& options, double time_s) {
-  const Station station = stationAt(options.path, time_s / kMotionSeconds);
+RigidTransform roomFromCamera(const SimulatorOptions& options, double time_s) {
+  const VisitPose visit = visitPose(options.posed);
+  Station station = stationAt(options.path, time_s / kMotionSeconds + visit.start_share);
+  station.roll_deg += visit.camera_roll_rad * 360.0 / kTurn;
   const RigidTransform pose = poseOf(facingTheUlcer(station, options.foot));
   if (options.jitter_mm <= 0.0) {
     return pose;

@@ -22,13 +22,20 @@ double smoothMin(double a, double b, double blend_mm) {
 constexpr double kToeSeparationMm = 0.8;  ///< blend between neighbouring toes: the crease stays
 constexpr double kToeRootMm = 9.0;        ///< blend of a toe into the ball
 
+/// Where each toe begins, from the big one on.
+const std::array<Vector3d, 5> kToeRoots = {Vector3d{196, 31, 22},
+                                           Vector3d{204, 8, 22},
+                                           Vector3d{200, -10, 20.5},
+                                           Vector3d{191, -25, 18.5},
+                                           Vector3d{179, -38, 16.5}};
+
 }  // namespace
 
-FootShape::FootShape() {
+FootShape::FootShape(double toe_bend_rad) : nails_(toeNails(toe_bend_rad)) {
   addLeg();
   addHeelAndArch();
   addRays();
-  addToes();
+  addToes(toe_bend_rad);
 }
 
 FootShape::RoundCone FootShape::cone(
@@ -106,31 +113,37 @@ void FootShape::addRays() {
   body_.insert(body_.end(), parts.begin(), parts.end());
 }
 
-void FootShape::addToes() {
+void FootShape::addToes(double bend_rad) {
   // Root, middle joint, pulp: the shaft lies higher than the pulp, which leaves the crease under
   // the toes.
   struct Bones {
-    Vector3d root, joint, pulp;
+    Vector3d joint, pulp;
     double root_radius, joint_radius, pulp_radius;
   };
   const std::array<Bones, 5> rows = {{
-      {{196, 31, 22}, {219, 32, 19.5}, {243, 30, 14.8}, 14.5, 12.5, 12.6},
-      {{204, 8, 22}, {229, 7.4, 20.0}, {242, 6.8, 11.2}, 10, 7.4, 8.0},
-      {{200, -10, 20.5}, {221, -10.6, 18.6}, {233, -10.8, 10.8}, 9.6, 7.2, 7.9},
-      {{191, -25, 18.5}, {210, -27.2, 16.8}, {221.5, -27.8, 10.2}, 9.2, 7.0, 7.5},
-      {{179, -38, 16.5}, {195, -42.8, 14.8}, {206, -44.2, 9.6}, 9, 7.0, 7.3},
+      {{219, 32, 19.5}, {243, 30, 14.8}, 14.5, 12.5, 12.6},
+      {{229, 7.4, 20.0}, {242, 6.8, 11.2}, 10, 7.4, 8.0},
+      {{221, -10.6, 18.6}, {233, -10.8, 10.8}, 9.6, 7.2, 7.9},
+      {{210, -27.2, 16.8}, {221.5, -27.8, 10.2}, 9.2, 7.0, 7.5},
+      {{195, -42.8, 14.8}, {206, -44.2, 9.6}, 9, 7.0, 7.3},
   }};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Bones& b = rows[i];
+    const Vector3d& root = kToeRoots[i];
+    const RigidTransform bend = bentToe(i, bend_rad);
+    const auto bone =
+        [&](const Vector3d& from, double radius_from, const Vector3d& to, double radius_to) {
+          return cone(bend * from, radius_from, bend * to, radius_to, 6);
+        };
     Toe& toe = toes_[i];
-    toe.bones = {cone(b.root, b.root_radius, b.joint, b.joint_radius, 6),
-                 cone(b.joint, b.joint_radius, b.pulp, b.pulp_radius, 6)};
+    toe.bones = {bone(root, b.root_radius, b.joint, b.joint_radius),
+                 bone(b.joint, b.joint_radius, b.pulp, b.pulp_radius)};
     if (i == 0) {  // the big toe is wider than high
-      toe.bones.push_back(cone({238, 36.5, 14.5}, 10.0, {244, 35, 14}, 9.6, 6));
-      toe.bones.push_back(cone({238, 27, 14.5}, 9.8, {244, 27, 14}, 9.6, 6));
+      toe.bones.push_back(bone({238, 36.5, 14.5}, 10.0, {244, 35, 14}, 9.6));
+      toe.bones.push_back(bone({238, 27, 14.5}, 9.8, {244, 27, 14}, 9.6));
     }
-    toe.center = 0.5 * (b.root + b.pulp);
-    toe.reach = 0.5 * (b.root - b.pulp).norm() + 1.3 * b.root_radius + 6.0;
+    toe.center = bend * (0.5 * (root + b.pulp));
+    toe.reach = 0.5 * (root - b.pulp).norm() + 1.3 * b.root_radius + 6.0;
   }
 }
 
@@ -162,7 +175,7 @@ double FootShape::distance(const Vector3d& p) const {
   double d = smoothMin(chainDistance(body_, p), toesDistance(p), kToeRootMm);
   d = std::max(d, p.z() - 250.0);  // the leg ends here, out of the camera's sight
   if (std::abs(d) < 3.0 && p.x() > 190.0) {
-    for (const ToeNail& nail : toeNails()) {
+    for (const ToeNail& nail : nails_) {
       d -= 0.45 * nailMask(nail, p, 0.8);
     }
   }
@@ -194,8 +207,18 @@ Vector3d FootShape::project(Vector3d p) const {
   return p;
 }
 
-const std::array<ToeNail, 5>& toeNails() {
-  static const std::array<ToeNail, 5> nails = [] {
+RigidTransform bentToe(std::size_t toe, double bend_rad) {
+  // Toes point along x: about y, towards -z.
+  RigidTransform bend = RigidTransform::Identity();
+  const double c = std::cos(bend_rad);
+  const double s = std::sin(bend_rad);
+  bend.linear() << c, 0, s, 0, 1, 0, -s, 0, c;
+  bend.translation() = kToeRoots[toe] - bend.linear() * kToeRoots[toe];
+  return bend;
+}
+
+std::array<ToeNail, 5> toeNails(double toe_bend_rad) {
+  static const std::array<ToeNail, 5> straight = [] {
     std::array<ToeNail, 5> made;
     const std::array<Vector3d, 5> centers = {Vector3d{244, 31, 27.0},
                                              Vector3d{246.0, 6.8, 18.2},
@@ -214,6 +237,13 @@ const std::array<ToeNail, 5>& toeNails() {
     }
     return made;
   }();
+  std::array<ToeNail, 5> nails = straight;
+  for (std::size_t i = 0; i < nails.size(); ++i) {
+    const RigidTransform bend = bentToe(i, toe_bend_rad);
+    nails[i].center = bend * nails[i].center;
+    nails[i].along = bend.linear() * nails[i].along;
+    nails[i].up = bend.linear() * nails[i].up;
+  }
   return nails;
 }
 

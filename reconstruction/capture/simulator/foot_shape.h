@@ -1,11 +1,30 @@
 #pragma once
 
+#include "reconstruction/scene/frame.h"
+
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace tarsus {
+
+/// Where the nail of a toe lies: the same places for shape and colour.
+struct ToeNail {
+  Eigen::Vector3d center;  ///< on the back of the toe [mm, foot frame]
+  Eigen::Vector3d along;   ///< unit, towards the tip
+  Eigen::Vector3d up;      ///< unit, out of the plate
+  double half_length;
+  double half_width;
+};
+[[nodiscard]] std::array<ToeNail, 5> toeNails(double toe_bend_rad = 0.0);
+
+/// 1 on the nail's plate, falling to 0 over its edge.
+[[nodiscard]] double nailMask(const ToeNail& nail, const Eigen::Vector3d& p, double edge_mm);
+
+/// What bending a toe (0: the big one) about its root does to all that belongs to it.
+[[nodiscard]] RigidTransform bentToe(std::size_t toe, double bend_rad);
 
 /// A right human foot with ankle and lower calf as a signed distance field [mm]: smooth unions of
 /// round cones. All shapes are our own; sizes follow an adult foot of 260 mm.
@@ -14,7 +33,8 @@ namespace tarsus {
 /// sole lies about z = 0. The outside is positive.
 class FootShape {
  public:
-  FootShape();
+  /// @param toe_bend_rad  all toes about their roots, towards the sole
+  explicit FootShape(double toe_bend_rad = 0.0);
 
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
   /// Unit vector away from the foot.
@@ -49,26 +69,14 @@ class FootShape {
   void addLeg();
   void addHeelAndArch();
   void addRays();
-  void addToes();
+  void addToes(double bend_rad);
   [[nodiscard]] double toesDistance(const Eigen::Vector3d& p) const;
   [[nodiscard]] static double chainDistance(const std::vector<RoundCone>& chain,
                                             const Eigen::Vector3d& p);
 
   std::vector<RoundCone> body_;
   std::array<Toe, 5> toes_;
+  std::array<ToeNail, 5> nails_;
 };
-
-/// Where the nail of a toe lies: the same places for shape and colour.
-struct ToeNail {
-  Eigen::Vector3d center;  ///< on the back of the toe [mm, foot frame]
-  Eigen::Vector3d along;   ///< unit, towards the tip
-  Eigen::Vector3d up;      ///< unit, out of the plate
-  double half_length;
-  double half_width;
-};
-[[nodiscard]] const std::array<ToeNail, 5>& toeNails();
-
-/// 1 on the nail's plate, falling to 0 over its edge.
-[[nodiscard]] double nailMask(const ToeNail& nail, const Eigen::Vector3d& p, double edge_mm);
 
 }  // namespace tarsus

@@ -202,9 +202,10 @@ Vector3d IntactFoot::toStandard(const Vector3d& p) const {
   return {scale * p.x(), scale * medial_y * p.y(), scale * p.z()};
 }
 
-IntactFoot makeOwnFoot() {
-  const auto shape = std::make_shared<const FootShape>();
+IntactFoot makeOwnFoot(double toe_bend_rad) {
+  const auto shape = std::make_shared<const FootShape>(toe_bend_rad);
   IntactFoot foot;
+  foot.toe_bend_rad = toe_bend_rad;
   foot.distance = [shape](const Vector3d& p) { return shape->distance(p); };
   foot.project = [shape](const Vector3d& p) { return shape->project(p); };
   foot.mesh = meshZeroSet({.distance = foot.distance,

@@ -15,6 +15,7 @@ namespace tarsus {
 struct IntactFoot {
   DenseMesh mesh;
   double length_mm = 260.0;
+  double toe_bend_rad = 0.0;
   double medial_y = 1.0;  ///< +1: the big toe is on the side of +y (a right foot), -1: a left one
   Eigen::Vector3d heel = Eigen::Vector3d::Zero();  ///< most posterior point of the heel pad
   Eigen::Vector3d toe = Eigen::Vector3d::Zero();   ///< tip of the second toe
@@ -29,7 +30,8 @@ struct IntactFoot {
 };
 
 /// The project's own foot, about 1 mm fine.
-[[nodiscard]] IntactFoot makeOwnFoot();
+/// @param toe_bend_rad  of all toes, towards the sole
+[[nodiscard]] IntactFoot makeOwnFoot(double toe_bend_rad = 0.0);
 
 /// A foot from a closed mesh in metres or millimetres, in any pose: the longest extent becomes
 /// heel-toe, the flat side the sole, the leg's end tells the heel, the big toe the side.

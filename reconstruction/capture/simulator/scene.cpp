@@ -6,10 +6,11 @@
 #include "reconstruction/capture/simulator/surroundings.h"
 #include "reconstruction/capture/simulator/tissue_truth.h"
 #include "reconstruction/capture/simulator/truth.h"
-#include "reconstruction/capture/simulator/ulcer_designs.h"
+#include "reconstruction/capture/simulator/visit.h"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tarsus {
@@ -27,6 +28,10 @@ Expected<void> checkOptions(const SimulatorOptions& options) {
   }
   if (!(options.noise >= 0.0) || !(options.jitter_mm >= 0.0)) {
     return fail(ErrorCode::BadOption, "noise and jitter must not be negative");
+  }
+  const auto sensible = [](double factor) { return factor >= 0.01 && factor <= 4.0; };
+  if (!sensible(options.area_factor) || !sensible(options.depth_factor)) {
+    return fail(ErrorCode::BadOption, "area and depth may change by a factor of 0.01 to 4");
   }
   return {};
 }
@@ -63,7 +68,7 @@ void move(WoundTruth& truth, const RigidTransform& scan_from_foot) {
 
 /// How far the path has been pushed aside by frame `index`, in the scan frame [mm].
 Vector3d pushedAside(const SimulatorOptions& options,
-                     const RigidTransform& scan_from_foot,
+                     const RigidTransform& scan_from_room,
                      int index) {
   Vector3d shift = Vector3d::Zero();
   if (options.fault != ScanFault::Jump) {
@@ -72,22 +77,22 @@ Vector3d pushedAside(const SimulatorOptions& options,
   for (const int jump : jumpFrames(options.frames)) {
     if (index >= jump) {
       const RigidTransform scan_from_camera =
-          scan_from_foot * footFromCamera(options, frameTime(options, jump));
+          scan_from_room * roomFromCamera(options, frameTime(options, jump));
       shift += kJumpMm * scan_from_camera.linear().col(0);
     }
   }
   return shift;
 }
 
-Trajectory truePoses(const SimulatorOptions& options, const RigidTransform& scan_from_foot) {
+Trajectory truePoses(const SimulatorOptions& options, const RigidTransform& scan_from_room) {
   Trajectory trajectory;
   for (int i = 0; i < options.frames; ++i) {
     const double time_s = frameTime(options, i);
     FramePose pose{.frame_index = i, .timestamp = toMicroseconds(time_s)};
     pose.scan_from_camera = RigidTransform::Identity();
     if (i > 0 && options.fault != ScanFault::Rest) {
-      pose.scan_from_camera = scan_from_foot * footFromCamera(options, time_s);
-      pose.scan_from_camera->pretranslate(pushedAside(options, scan_from_foot, i));
+      pose.scan_from_camera = scan_from_room * roomFromCamera(options, time_s);
+      pose.scan_from_camera->pretranslate(pushedAside(options, scan_from_room, i));
     }
     pose.inlier_fraction = 1.0;
     trajectory.push_back(pose);
@@ -100,7 +105,7 @@ Expected<std::shared_ptr<const SimulatedScene>> objectScene(const SimulatorOptio
   if (!object) {
     return tl::unexpected(object.error());
   }
-  const RigidTransform scan_from_foot = footFromCamera(options, 0.0).inverse();
+  const RigidTransform scan_from_foot = roomFromCamera(options, 0.0).inverse();
   auto scene = std::make_shared<SimulatedScene>();
   scene->foot = std::move(object->object);
   scene->surroundings = std::move(object->table);
@@ -113,6 +118,16 @@ Expected<std::shared_ptr<const SimulatedScene>> objectScene(const SimulatorOptio
   return scene;
 }
 
+/// The room's light is painted in; another one changes all of it.
+void relight(std::vector<Rgb8>& colors, const std::array<double, 3>& light) {
+  const auto lit = [](std::uint8_t level, double gain) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(level * gain), 0L, 255L));
+  };
+  for (Rgb8& c : colors) {
+    c = {.r = lit(c.r, light[0]), .g = lit(c.g, light[1]), .b = lit(c.b, light[2])};
+  }
+}
+
 }  // namespace
 
 Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOptions& options) {
@@ -122,16 +137,20 @@ Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOption
   if (!options.object.empty()) {
     return objectScene(options);
   }
-  Expected<IntactFoot> foot = options.mesh.empty() ? makeOwnFoot() : loadFoot(options.mesh);
+  const VisitPose visit = visitPose(options.posed);
+  Expected<IntactFoot> foot =
+      options.mesh.empty() ? makeOwnFoot(visit.toe_bend_rad) : loadFoot(options.mesh);
   if (!foot) {
     return tl::unexpected(foot.error());
   }
-  const Expected<CarvedFoot> carved = carveUlcers(*foot, ulcerDesigns(options.foot));
+  const Expected<CarvedFoot> carved = carveUlcers(*foot, ulcersAt(options));
   if (!carved) {
     return tl::unexpected(carved.error());
   }
-  const RigidTransform scan_from_foot = footFromCamera(options, 0.0).inverse();
+  const RigidTransform scan_from_room = roomFromCamera(options, 0.0).inverse();
+  const RigidTransform scan_from_foot = scan_from_room * visit.room_from_foot;
   auto scene = std::make_shared<SimulatedScene>();
+  scene->scan_from_foot = scan_from_foot;
   scene->foot.mesh =
       moved({.positions = carved->carved, .faces = carved->intact.faces}, scan_from_foot);
   scene->foot.colors = paintFoot(*foot, *carved);
@@ -139,7 +158,9 @@ Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOption
   scene->foot.comments = {"simulated foot, the truth of a simulated scan"};
   scene->intact_foot = moved(carved->intact, scan_from_foot);
   scene->surroundings = makeSurroundings(*foot);
-  move(scene->surroundings, scan_from_foot);
+  move(scene->surroundings, scan_from_room);
+  relight(scene->foot.colors, visit.light);
+  relight(scene->surroundings.colors, visit.light);
   for (std::size_t i = 0; i < carved->ulcers.size(); ++i) {
     WoundTruth truth = measureTruth(*foot, *carved, static_cast<int>(i));
     truth.tissue_fraction = tissueFractions(*carved, scene->tissue, static_cast<int>(i));
@@ -148,7 +169,7 @@ Expected<std::shared_ptr<const SimulatedScene>> buildScene(const SimulatorOption
   }
   scene->heel_mm = scan_from_foot * foot->heel;
   scene->toe_mm = scan_from_foot * foot->toe;
-  scene->trajectory = truePoses(options, scan_from_foot);
+  scene->trajectory = truePoses(options, scan_from_room);
   return scene;
 }
 

@@ -33,6 +33,12 @@ constexpr std::array<std::pair<ScanFault, std::string_view>, 9> kFaults = {
      {ScanFault::Blocked, "blocked"},
      {ScanFault::Unit, "unit"}}};
 
+constexpr std::array<std::pair<HealingCourse, std::string_view>, 4> kCourses = {
+    {{HealingCourse::Shrinking, "shrinking"},
+     {HealingCourse::Deepening, "deepening"},
+     {HealingCourse::Filling, "filling"},
+     {HealingCourse::Splitting, "splitting"}}};
+
 template <typename Table, typename Value>
 std::string_view nameIn(const Table& table, Value value) {
   for (const auto& [entry, name] : table) {
@@ -119,6 +125,10 @@ std::string_view nameOf(FootCase foot) { return nameIn(kFeet, foot); }
 std::string_view nameOf(CameraPath path) { return nameIn(kPaths, path); }
 std::string_view nameOf(CameraLayout layout) { return nameIn(kLayouts, layout); }
 std::string_view nameOf(ScanFault fault) { return nameIn(kFaults, fault); }
+std::string_view nameOf(HealingCourse course) { return nameIn(kCourses, course); }
+std::optional<HealingCourse> healingCourseNamed(std::string_view name) {
+  return valueIn(kCourses, name);
+}
 std::optional<FootCase> footCaseNamed(std::string_view name) { return valueIn(kFeet, name); }
 std::optional<CameraPath> cameraPathNamed(std::string_view name) { return valueIn(kPaths, name); }
 std::optional<CameraLayout> cameraLayoutNamed(std::string_view name) {

@@ -47,6 +47,13 @@ struct SimulatorOptions {
   double noise = 1.0;          ///< 0: exact depth and colour; 1: SR300 class
   double jitter_mm = 0.0;      ///< hand shake added to the rig's motion, standard deviation
   std::filesystem::path mesh;  ///< a closed foot mesh (OBJ, metres or mm) instead of our own
+  /// Of a later visit of the same foot: the ulcers' openings and depths against the first visit,
+  /// one ulcer healed across into two, and how foot, toes, camera and light differ (visit.h; 0: not
+  /// at all). A foreign foot's toes do not bend.
+  double area_factor = 1.0;
+  double depth_factor = 1.0;
+  bool split = false;
+  std::uint64_t posed = 0;
   /// Instead of a foot: an object as it is (STL, PLY or OBJ, mm, z up from its base), on a table.
   /// It has no wounds that the simulator knows of.
   std::filesystem::path object;
@@ -89,7 +96,20 @@ struct SimulatedScene {
   /// True poses of all frames, first = identity; with the steps of ScanFault::Jump, without motion
   /// for Rest, and also of the frames that Dropped takes away.
   Trajectory trajectory;
+  RigidTransform scan_from_foot = RigidTransform::Identity();  ///< what visits have in common [mm]
 };
+
+/// How an ulcer goes on from one visit to the next.
+enum class HealingCourse {
+  Shrinking,  ///< opening and depth fall, as when it heals
+  Deepening,  ///< the opening stays, the bed sinks
+  Filling,    ///< the bed rises, the opening hardly falls
+  Splitting,  ///< shrinks, and is healed across from the sixth week on
+};
+[[nodiscard]] std::string_view nameOf(HealingCourse course);
+[[nodiscard]] std::optional<HealingCourse> healingCourseNamed(std::string_view name);
+/// The same scan, so many weeks later; each week posed otherwise.
+[[nodiscard]] SimulatorOptions weeksLater(SimulatorOptions first, HealingCourse course, int weeks);
 
 /// @errors FileMissing, MeshInvalid (for options.mesh and options.object), BadOption
 [[nodiscard]] Expected<std::shared_ptr<const SimulatedScene>> buildScene(

@@ -126,11 +126,13 @@ Color backColor(const Vector3d& p) {
   return c * (1.0 + 0.045 * solidNoise({p.x() / 1.6, p.y() / 1.1, p.z() / 1.6}, 27));
 }
 
-Color withNails(const Vector3d& p, Color c) {
+using Nails = std::array<ToeNail, 5>;
+
+Color withNails(const Vector3d& p, const Nails& nails, Color c) {
   if (p.x() < 195.0) {
     return c;
   }
-  for (const ToeNail& nail : toeNails()) {
+  for (const ToeNail& nail : nails) {
     const double plate = nailMask(nail, p, 0.7);
     if (plate <= 0.0) {
       continue;
@@ -151,7 +153,8 @@ Color clothColor(const Vector3d& p) {
   return kCloth * (1.0 + 0.10 * weave + 0.16 * fractalNoise(p / 14.0, 4, 28));
 }
 
-Color skinColor(const Vector3d& p, const Vector3d& n, bool nails) {
+/// @param nails  null: of a foreign foot, where they are is not known
+Color skinColor(const Vector3d& p, const Vector3d& n, const Nails* nails) {
   const double sole = smoothStep(-0.05, 0.45, -n.z()) * (1.0 - smoothStep(40, 70, p.z()));
   Color c = mix(backColor(p), soleColor(p), sole);
   c *= 1.0 + 0.050 * fractalNoise(p / 20.0, 3, 29) + 0.055 * fractalNoise(p / 2.4, 3, 30);
@@ -159,7 +162,7 @@ Color skinColor(const Vector3d& p, const Vector3d& n, bool nails) {
   c = Color(
       c.x() * (1.0 + 0.01 * flush), c.y() * (1.0 - 0.05 * flush), c.z() * (1.0 - 0.05 * flush));
   c = mix(c, kPenInk, 0.72 * sole * penMarks(p));
-  return nails ? withNails(p, c) : c;
+  return nails != nullptr ? withNails(p, *nails, c) : c;
 }
 
 /// Share of the sky that hollows hide, from a few samples of the distance field.
@@ -180,6 +183,7 @@ std::vector<Rgb8> paintFoot(const IntactFoot& foot, const CarvedFoot& carved) {
   const Vector3d light = Vector3d(0.45, 0.25, -0.86).normalized();
   const std::vector<Vector3d> normals =
       normalsOf({.positions = carved.carved, .faces = carved.intact.faces});
+  const Nails nails = toeNails(foot.toe_bend_rad);
   const std::vector<WoundPainter> painters(carved.ulcers.begin(), carved.ulcers.end());
   std::vector<Rgb8> colors(carved.carved.size());
   const auto paint = [&](std::size_t i) {
@@ -188,7 +192,7 @@ std::vector<Rgb8> paintFoot(const IntactFoot& foot, const CarvedFoot& carved) {
     const Vector3d standard = foot.toStandard(p);
     const bool cloth = foot.distance && standard.z() > 205.0;
     Color c =
-        cloth ? clothColor(standard) : skinColor(standard, n, static_cast<bool>(foot.distance));
+        cloth ? clothColor(standard) : skinColor(standard, n, foot.distance ? &nails : nullptr);
     double hidden = cloth ? 0.0 : hollowness(foot, p, n);
     for (std::size_t k = 0; k < painters.size(); ++k) {
       const Ulcer& ulcer = carved.ulcers[k];

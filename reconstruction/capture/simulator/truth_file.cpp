@@ -15,6 +15,17 @@ constexpr double kOutlineSpacingMm = 1.0;
 
 json toJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+/// 4 x 4, row by row, mm.
+json toJson(const RigidTransform& transform) {
+  json rows = json::array();
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 4; ++k) {
+      rows.push_back(transform.matrix()(i, k));
+    }
+  }
+  return rows;
+}
+
 json curveJson(const std::vector<Eigen::Vector3d>& curve, const std::string& site) {
   json points = json::array();
   for (const Eigen::Vector3d& p : resampled(curve, kOutlineSpacingMm)) {
@@ -55,6 +66,7 @@ json truthJson(const SimulatedScene& scene, const SimulatorOptions& options) {
           {"wounds", wounds},
           {"heel_mm", toJson(scene.heel_mm)},
           {"toe_mm", toJson(scene.toe_mm)},
+          {"scan_from_foot", toJson(scene.scan_from_foot)},
           {"options",
            {{"foot", nameOf(options.foot)},
             {"path", nameOf(options.path)},
@@ -64,6 +76,10 @@ json truthJson(const SimulatedScene& scene, const SimulatorOptions& options) {
             {"seed", options.seed},
             {"noise", options.noise},
             {"jitter_mm", options.jitter_mm},
+            {"area_factor", options.area_factor},
+            {"depth_factor", options.depth_factor},
+            {"split", options.split},
+            {"posed", options.posed},
             {"mesh", options.mesh.filename().string()},
             {"object", options.object.filename().string()}}}};
 }

@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace tarsus {
@@ -16,14 +18,15 @@ struct UlcerDesign {
   Eigen::Vector3d seen_towards;  ///< ... along this direction meets the skin at the centre
   double half_length_mm;
   double half_width_mm;
-  double turn_rad;      ///< of the long axis from heel-toe, about the outward normal
-  double depth_mm;      ///< nominal; the bed undulates about it
-  double wall_mm;       ///< how far from the rim the wall reaches 63 % of the depth
-  double irregularity;  ///< of the rim, relative to its radius
-  double undulation;    ///< of the bed, relative to the depth
-  double slough;        ///< share of the bed, roughly
-  double necrosis;      ///< share of the bed, roughly
-  int islands;          ///< of skin within the bed
+  double turn_rad;                    ///< of the long axis from heel-toe, about the outward normal
+  double depth_mm;                    ///< nominal; the bed undulates about it
+  double wall_mm;                     ///< how far from the rim the wall reaches 63 % of the depth
+  double irregularity;                ///< of the rim, relative to its radius
+  double undulation;                  ///< of the bed, relative to the depth
+  double slough;                      ///< share of the bed, roughly
+  double necrosis;                    ///< share of the bed, roughly
+  int islands;                        ///< of skin within the bed
+  std::optional<std::size_t> on_toe;  ///< 0: the big one; it bends with that toe
 };
 
 /// An ulcer placed on a foot: its rim and its depth as functions over the skin.

@@ -80,7 +80,8 @@ UlcerDesign bigToe() {
           .undulation = 0.18,
           .slough = 0.25,
           .necrosis = 0.06,
-          .islands = 0};
+          .islands = 0,
+          .on_toe = 0};
 }
 
 }  // namespace

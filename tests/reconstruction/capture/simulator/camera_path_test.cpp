@@ -10,8 +10,8 @@ double longestStepMm(const SimulatorOptions& options) {
   const Eigen::Vector3d middle(130, 0, 30);
   double longest = 0.0;
   for (int i = 1; i < options.frames; ++i) {
-    const RigidTransform before = footFromCamera(options, frameTime(options, i - 1));
-    const RigidTransform now = footFromCamera(options, frameTime(options, i));
+    const RigidTransform before = roomFromCamera(options, frameTime(options, i - 1));
+    const RigidTransform now = roomFromCamera(options, frameTime(options, i));
     longest = std::max(longest, (now.translation() - before.translation()).norm());
     const double distance_mm = (now.translation() - middle).norm();
     EXPECT_GT(distance_mm, 300.0);
@@ -31,7 +31,7 @@ TEST(CameraPath, RigMovesSmoothlyOverTheSceneInTwentySeconds) {
 TEST(CameraPath, LoopClosesAndQuickHurries) {
   SimulatorOptions options;
   options.path = CameraPath::Loop;
-  EXPECT_LT((footFromCamera(options, 0.0).inverse() * footFromCamera(options, kMotionSeconds))
+  EXPECT_LT((roomFromCamera(options, 0.0).inverse() * roomFromCamera(options, kMotionSeconds))
                 .translation()
                 .norm(),
             1e-6);
@@ -45,7 +45,7 @@ TEST(CameraPath, RotationsAreProper) {
     options.path = path;
     options.jitter_mm = 1.0;
     for (int i = 0; i < 40; ++i) {
-      const Eigen::Matrix3d r = footFromCamera(options, 0.5 * i).linear();
+      const Eigen::Matrix3d r = roomFromCamera(options, 0.5 * i).linear();
       EXPECT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-9);
       EXPECT_GT(r.determinant(), 0.0);
     }
@@ -62,8 +62,8 @@ TEST(CameraPath, JitterHasTheStandardDeviationAskedFor) {
     shaken.seed = seed;
     for (int i = 0; i < 600; ++i) {
       const double t = frameTime(still, i);
-      const RigidTransform a = footFromCamera(still, t);
-      const RigidTransform b = footFromCamera(shaken, t);
+      const RigidTransform a = roomFromCamera(still, t);
+      const RigidTransform b = roomFromCamera(shaken, t);
       sum2 += (b.translation() - a.translation()).squaredNorm() / 3.0;
       ++count;
     }
