@@ -40,6 +40,7 @@ void addTexture(CLI::App& app, Command& command);
 void addEvaluate(CLI::App& app, Command& command);
 void addSuggest(CLI::App& app, Command& command);
 void addMeasure(CLI::App& app, Command& command);
+void addCompare(CLI::App& app, Command& command);
 void addTissue(CLI::App& app, Command& command);
 void addScore(CLI::App& app, Command& command);
 void addReport(CLI::App& app, Command& command);

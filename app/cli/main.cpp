@@ -86,6 +86,7 @@ int parseAndRun(int argc, char** argv) {
   addEvaluate(app, command);
   addSuggest(app, command);
   addMeasure(app, command);
+  addCompare(app, command);
   addTissue(app, command);
   addScore(app, command);
   addReport(app, command);

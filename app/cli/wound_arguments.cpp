@@ -160,6 +160,7 @@ Expected<MeasuredModel> measureFiles(const WoundArguments& arguments) {
         {"model_unfit", "The scan behind this model was refused for measurement; scan again."});
   }
   return MeasuredModel{.foot = std::move(*foot),
+                       .outline = std::move(*outline),
                        .wound = std::move(*wound),
                        .landmarks = landmarks,
                        .tissue = std::move(*tissue),

@@ -24,6 +24,7 @@ void addWoundOptions(CLI::App& sub, WoundArguments& arguments);
 
 struct MeasuredModel {
   TexturedMesh foot;
+  WoundOutline outline;
   MeasuredWound wound;
   std::optional<Landmarks> landmarks;
   std::optional<TissueShares> tissue;
