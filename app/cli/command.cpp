@@ -38,7 +38,7 @@ std::vector<std::string> filesOf(const std::string& option, const std::string& v
 
 std::string outputThatClashes(const CLI::App& sub) {
   const std::set<std::string> outputs{
-      "--json", "OUT", "OUT_DIR", "--heatmap", "--artifacts", "--chart"};
+      "--json", "OUT", "OUT_DIR", "--heatmap", "--artifacts", "--chart", "--map"};
   std::vector<std::string> written;
   std::vector<std::string> read;
   for (const CLI::Option* option : sub.get_options()) {

@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kChunk = 128;
-constexpr double kFacing = 0.6;  ///< cosine between the normals of both visits
+constexpr double kStill_mm = 1e-4;  ///< a step that ends the last reach
+constexpr double kFacing = 0.6;     ///< cosine between the normals of both visits
 
 /// The other's surface at one sample: in the other's frame.
 struct Landing {
@@ -134,7 +135,11 @@ RigidTransform refinePose(const VisitSkin& a,
   for (const double reach_mm : reaches_mm) {
     const auto matches = matchSkin(a, b, b_from_a, reach_mm, effort);
     const Vector3d center = b_from_a * a.wound_mm;
-    b_from_a = motionOf(stepOf(matches, center, reach_mm), center) * b_from_a;
+    const MotionVector step = stepOf(matches, center, reach_mm);
+    b_from_a = motionOf(step, center) * b_from_a;
+    if (reach_mm == reaches_mm.back() && step.norm() < kStill_mm) {
+      break;
+    }
   }
   return b_from_a;
 }

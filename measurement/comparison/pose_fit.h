@@ -34,7 +34,8 @@ struct MatchEffort {
                                                double reach_mm,
                                                const MatchEffort& effort = {});
 
-/// Gauss-Newton steps, one for each reach: matches within it, with Tukey's weights of it.
+/// Gauss-Newton steps, one for each reach: matches within it, with Tukey's weights of it. Ends
+/// early where a step of the last reach moves nothing.
 [[nodiscard]] RigidTransform refinePose(const VisitSkin& a,
                                         const VisitSkin& b,
                                         const RigidTransform& start,

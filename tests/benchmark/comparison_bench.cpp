@@ -299,5 +299,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: tarsus-bench-comparison FOLDER [REPEATS]\n");
     return 2;
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a long run shows how far it is
   return tarsus::bench::run(argv[1], argc > 2 ? std::atoi(argv[2]) : 100);
 }
