@@ -26,12 +26,19 @@ constexpr std::array kRows{
     Row{"length_mm", "length, greatest chord", "mm", 1.0, 1, &WoundMeasurement::length_mm},
     Row{"width_mm", "width, across it", "mm", 1.0, 1, &WoundMeasurement::width_mm}};
 
+/// Rounded to so many decimals; what rounds to nothing is 0, not -0.
+double rounded(double value, int decimals) {
+  const double unit = std::pow(10.0, decimals);
+  return std::round(value * unit) / unit + 0.0;
+}
+
 std::string number(const std::optional<double>& value, const Row& row, const char* format) {
   if (!value) {
     return "-";
   }
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, row.decimals, *value * row.scale);
+  std::snprintf(
+      text.data(), text.size(), format, row.decimals, rounded(*value * row.scale, row.decimals));
   return text.data();
 }
 
@@ -63,7 +70,7 @@ void printChange(const Row& row,
   const Change& change = found->second;
   std::array<char, 32> percent{};
   if (change.percent) {
-    std::snprintf(percent.data(), percent.size(), "%+.0f %%", *change.percent);
+    std::snprintf(percent.data(), percent.size(), "%+.0f %%", rounded(*change.percent, 0));
   }
   std::printf("%-24s %9s %9s %9s %-4s %8s   %9s  %s\n",
               row.label,
@@ -80,10 +87,10 @@ void printChange(const Row& row,
 
 void printRates(const VisitComparison& comparison) {
   if (comparison.par_percent) {
-    std::printf("Area reduced by %.0f %%", *comparison.par_percent);
+    std::printf("Area reduced by %.0f %%", rounded(*comparison.par_percent, 0));
     if (comparison.gilman_mm_per_week) {
       std::printf("; edge advanced by %.2f mm per week (Gilman 1990)",
-                  *comparison.gilman_mm_per_week);
+                  rounded(*comparison.gilman_mm_per_week, 2));
     }
     std::printf("; not a prediction\n");
   }
@@ -100,7 +107,7 @@ void printSectors(const VisitComparison& comparison) {
   for (const SectorChange& sector : *comparison.sectors) {
     std::array<char, 32> edge{"-"};
     if (sector.edge_mm) {
-      std::snprintf(edge.data(), edge.size(), "%+.1f", *sector.edge_mm);
+      std::snprintf(edge.data(), edge.size(), "%+.1f", rounded(*sector.edge_mm, 1));
     }
     std::printf("%14d             %16s   %11.0f   %13.0f\n",
                 sector.clock,
