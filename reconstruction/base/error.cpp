@@ -132,6 +132,44 @@ constexpr std::array kEntries{
           "rig_failed",
           "The rig does not answer as it should; check its cable, power and port, and that nothing "
           "blocks it."},
+    Entry{ErrorCode::RecordMissing,
+          "record_missing",
+          "There is no such record; look at the list and check what was typed."},
+    Entry{ErrorCode::RecordInvalid,
+          "record_invalid",
+          "A field of the record cannot be used; correct it and save again. Nothing was saved."},
+    Entry{ErrorCode::RecordStale,
+          "record_stale",
+          "Somebody has changed this record since you opened it; look at it as it is now and make "
+          "your change again. Nothing was overwritten."},
+    Entry{ErrorCode::StepNotAllowed,
+          "step_not_allowed",
+          "The record is not in a state in which this can be done. Nothing was changed."},
+    Entry{ErrorCode::NotPermitted,
+          "not_permitted",
+          "Your role does not allow this; ask a colleague whose role does, or the administrator."},
+    Entry{ErrorCode::PasswordWrong,
+          "password_wrong",
+          "The name, the password or the recovery code is wrong; try again."},
+    Entry{ErrorCode::SignInDelayed,
+          "sign_in_delayed",
+          "There were too many wrong attempts; wait a while and try again."},
+    Entry{ErrorCode::StoreLocked, "store_locked", "The records are locked; sign in again."},
+    Entry{ErrorCode::StoreBusy,
+          "store_busy",
+          "Another program or station is writing to the records; try again in a moment. Nothing was "
+          "changed."},
+    Entry{ErrorCode::StoreFailed,
+          "store_failed",
+          "The records cannot be reached; check that their disk or server is there, and try again."},
+    Entry{ErrorCode::StoreDamaged,
+          "store_damaged",
+          "A part of the records is damaged or was changed outside this program; restore it from a "
+          "backup."},
+    Entry{ErrorCode::StoreNewer,
+          "store_newer",
+          "The records were made by a newer version of this program; install that version. Nothing "
+          "was changed."},
 };
 
 const Entry& entryOf(ErrorCode code) {

@@ -43,6 +43,18 @@ enum class ErrorCode {
   RecordingInvalid,
   CalibrationFailed,
   RigFailed,
+  RecordMissing,
+  RecordInvalid,
+  RecordStale,
+  StepNotAllowed,
+  NotPermitted,
+  PasswordWrong,
+  SignInDelayed,
+  StoreLocked,
+  StoreBusy,
+  StoreFailed,
+  StoreDamaged,
+  StoreNewer,
 };
 
 /// A failure the world can cause. Bugs are not Errors: they go through TARSUS_REQUIRE.

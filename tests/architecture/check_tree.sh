@@ -19,7 +19,7 @@ check_includes() {
       BEGIN {
         count = split("reconstruction/base reconstruction/scene reconstruction/capture " \
           "reconstruction/fusion reconstruction/texture reconstruction/pipeline " \
-          "measurement/outline measurement/wound measurement/scores measurement/phantom measurement/comparison measurement/report ui app tests", \
+          "measurement/outline measurement/wound measurement/scores measurement/phantom measurement/comparison measurement/records measurement/report ui app tests", \
           folders, " ")
         own = rank(file)
         if (own == 0) print file ": its folder has no place in the order of check_tree.sh"

@@ -44,6 +44,18 @@ constexpr bool exists(ErrorCode code) {
     case ErrorCode::RecordingInvalid:
     case ErrorCode::CalibrationFailed:
     case ErrorCode::RigFailed:
+    case ErrorCode::RecordMissing:
+    case ErrorCode::RecordInvalid:
+    case ErrorCode::RecordStale:
+    case ErrorCode::StepNotAllowed:
+    case ErrorCode::NotPermitted:
+    case ErrorCode::PasswordWrong:
+    case ErrorCode::SignInDelayed:
+    case ErrorCode::StoreLocked:
+    case ErrorCode::StoreBusy:
+    case ErrorCode::StoreFailed:
+    case ErrorCode::StoreDamaged:
+    case ErrorCode::StoreNewer:
     case ErrorCode::FontMissing:
       return true;
   }
