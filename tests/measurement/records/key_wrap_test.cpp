@@ -33,7 +33,10 @@ TEST(RecoveryCode, ReadsBackHoweverItIsTyped) {
     std::string typed = code;
     std::ranges::transform(typed, typed.begin(), [](char letter) {
       const int lower = std::tolower(static_cast<unsigned char>(letter));
-      return letter == '-' ? ' ' : letter == '0' ? 'o' : letter == '1' ? 'l' : static_cast<char>(lower);
+      return letter == '-'   ? ' '
+             : letter == '0' ? 'o'
+             : letter == '1' ? 'l'
+                             : static_cast<char>(lower);
     });
     EXPECT_EQ(readRecoveryCode(typed).value(), code);
   }

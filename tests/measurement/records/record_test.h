@@ -76,6 +76,6 @@ class RecordTest : public testing::TestWithParam<Database::Engine> {
 
 }  // namespace tarsus
 
-#define TARSUS_ON_BOTH_ENGINES(Suite)                                                             \
-  INSTANTIATE_TEST_SUITE_P(                                                                       \
+#define TARSUS_ON_BOTH_ENGINES(Suite) \
+  INSTANTIATE_TEST_SUITE_P(           \
       , Suite, testing::Values(Database::Engine::Sqlite, Database::Engine::Postgres), engineName)

@@ -59,7 +59,8 @@ TEST(VisitStates, EachStateStepRoleAndReasonGivesWhatTheRuleSays) {
       }
     }
   }
-  // Draft edit and sign: 2 steps x 2 roles x 2; return 2 x 1 x 1; amend 4 x 2 x 1; review 2 x 1 x 2.
+  // Draft edit and sign: 2 steps x 2 roles x 2; return 2 x 1 x 1; amend 4 x 2 x 1; review 2 x 1
+  // x 2.
   EXPECT_EQ(allowed, 8 + 2 + 8 + 4);
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "measurement/records/audit.h"
+#include "measurement/records/store.h"
+#include "reconstruction/base/error.h"
+
+#include <string>
+#include <vector>
+
+namespace tarsus {
+
+struct StoreCheck {
+  AuditVerdict audit;
+  std::vector<std::string> findings;  ///< one sentence each; none: all is as it was written
+  std::size_t revisions = 0;
+  std::size_t files = 0;
+};
+
+/// The whole store: the audit chain, each revision against the audit entry made with it, where each
+/// record stands against its last revision, and each file that a record uses against its name.
+/// Finds what was changed, removed or put in outside this program; what was erased lawfully has
+/// its tombstone and is no finding.
+[[nodiscard]] Expected<StoreCheck> checkStore(Store& store);
+
+}  // namespace tarsus
