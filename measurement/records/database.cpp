@@ -110,6 +110,12 @@ QString nextConnectionName() {
   return QStringLiteral("tarsus-records-%1").arg(++count);
 }
 
+/// PostgreSQL prepares nothing else.
+bool isPreparable(std::string_view sql) {
+  return sql.starts_with("SELECT") || sql.starts_with("INSERT") || sql.starts_with("UPDATE") ||
+         sql.starts_with("DELETE") || sql.starts_with("WITH");
+}
+
 Expected<void> runPlain(QSqlDatabase& connection,
                         Database::Engine engine,
                         const std::string& place,
@@ -202,18 +208,20 @@ Expected<Database> Database::openPostgres(const PostgresAddress& address) {
 Expected<std::vector<SqlRow>> Database::query(std::string_view sql,
                                               const std::vector<SqlValue>& values) {
   auto& statement = impl_->prepared[std::string(sql)];
+  const QString text = QString::fromUtf8(sql.data(), static_cast<int>(sql.size()));
   if (!statement) {
-    auto made = std::make_unique<QSqlQuery>(impl_->connection);
-    made->setForwardOnly(true);
-    if (!made->prepare(QString::fromUtf8(sql.data(), static_cast<int>(sql.size())))) {
-      return sqlFailure(impl_->engine, impl_->place, made->lastError());
+    statement = std::make_unique<QSqlQuery>(impl_->connection);
+    statement->setForwardOnly(true);
+    if (isPreparable(sql) && !statement->prepare(text)) {
+      auto failure = sqlFailure(impl_->engine, impl_->place, statement->lastError());
+      statement.reset();
+      return failure;
     }
-    statement = std::move(made);
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     statement->bindValue(static_cast<int>(i), toVariant(values[i]));
   }
-  if (!statement->exec()) {
+  if (!(isPreparable(sql) ? statement->exec() : statement->exec(text))) {
     auto failure = sqlFailure(impl_->engine, impl_->place, statement->lastError());
     statement.reset();
     return failure;
@@ -274,6 +282,22 @@ Expected<Transaction> Transaction::begin(Database& database) {
     }
   }
   return transaction;
+}
+
+Expected<Transaction> Transaction::beginSnapshot(Database& database) {
+  Database::Impl& impl = *database.impl_;
+  TARSUS_REQUIRE(impl.depth == 0, "a snapshot is not taken inside a change");
+  const bool sqlite = impl.engine == Database::Engine::Sqlite;
+  if (auto begun = runPlain(impl.connection,
+                            impl.engine,
+                            impl.place,
+                            sqlite ? "BEGIN" : "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY");
+      !begun) {
+    return tl::unexpected(begun.error());
+  }
+  impl.depth = 1;
+  impl.doomed = false;
+  return Transaction(impl, true);
 }
 
 Transaction::Transaction(Transaction&& other) noexcept

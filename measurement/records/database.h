@@ -73,6 +73,8 @@ class Database {
 class Transaction {
  public:
   [[nodiscard]] static Expected<Transaction> begin(Database& database);
+  /// For reading one moment's state while others go on writing; write nothing in it.
+  [[nodiscard]] static Expected<Transaction> beginSnapshot(Database& database);
   Transaction(Transaction&& other) noexcept;
   Transaction& operator=(Transaction&&) = delete;
   Transaction(const Transaction&) = delete;

@@ -28,7 +28,7 @@ std::string engineName(const testing::TestParamInfo<Database::Engine>& info) {
 }
 
 void RecordTest::SetUp() {
-  place_.folder = folder_.path() / "store";
+  place_.folder = folder_.path() / ("store" + std::to_string(++stores_));
   if (GetParam() == Database::Engine::Postgres) {
     PostgresServer& server = PostgresServer::instance();
     if (!server.missing().empty()) {

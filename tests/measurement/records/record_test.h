@@ -49,6 +49,7 @@ void expectFails(const Expected<T>& result, ErrorCode code) {
 /// reader (rita); time stands still unless a test moves it.
 class RecordTest : public testing::TestWithParam<Database::Engine> {
  protected:
+  /// A fresh store; called again, another one.
   void SetUp() override;
   /// Another connection, as from another station; not signed in.
   [[nodiscard]] Store openStore(const std::string& station = "ward 1");
@@ -70,6 +71,7 @@ class RecordTest : public testing::TestWithParam<Database::Engine> {
   StorePlace place_;
   std::shared_ptr<std::int64_t> now_ms_ = std::make_shared<std::int64_t>(1767225600000);  // 2026
   std::string recovery_code_;
+  int stores_ = 0;
 };
 
 [[nodiscard]] std::string engineName(const testing::TestParamInfo<Database::Engine>& info);
