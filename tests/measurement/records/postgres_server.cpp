@@ -45,7 +45,7 @@ PostgresServer::PostgresServer() : programs_(findPrograms()) {
       run(asNobody(programs_ + "/initdb -A trust -U tarsus -E UTF8 --locale=C -D " + data),
           folder_.path()) &&
       run(asNobody(programs_ + "/pg_ctl -w -D " + data + " -o \"-k " + folder_.path().string() +
-                   " -c listen_addresses=''\" -l " + data + "/server.log start"),
+                   " -c fsync=off -c listen_addresses=''\" -l " + data + "/server.log start"),
           folder_.path());
   if (!made) {
     missing_ = "the PostgreSQL server does not start; its log is in " + folder_.path().string();
