@@ -61,9 +61,11 @@ TEST_P(Audit, FindsTheFirstChangedEntryWhateverColumnIt) {
                              "digest = hash",
                              "details = hash",
                              "hash = digest"}) {
-    SetUp();
-    tamper(std::string("UPDATE audit SET ") + change + " WHERE entry = 7");
-    EXPECT_EQ(verify().broken_at, 7) << change;
+    Store store = openAs("rita");
+    const Transaction gone_after = must(Transaction::begin(store.database()));
+    must(store.database().execute(std::string("UPDATE audit SET ") + change + " WHERE entry = 7"));
+    const auto verdict = must(verifyAudit(store.database(), store.vault(), store.anchorFile()));
+    EXPECT_EQ(verdict.broken_at, 7) << change;
   }
 }
 
