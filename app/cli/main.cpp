@@ -1,5 +1,6 @@
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/cli/records/record_commands.h"
 #include "app/version.h"
 #include "reconstruction/base/atomic_file.h"
 
@@ -92,13 +93,18 @@ int parseAndRun(int argc, char** argv) {
   addReport(app, command);
   addPhantom(app, command);
   addVerify(app, command);
+  addStoreCommands(app, command);
+  addPatients(app, command);
+  addWounds(app, command);
+  addVisits(app, command);
   addDemo(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
-  for (const CLI::App* sub : app.get_subcommands()) {
+  for (const CLI::App* sub = &app; !sub->get_subcommands().empty();) {
+    sub = sub->get_subcommands().front();
     if (const std::string file = outputThatClashes(*sub); !file.empty()) {
       std::cerr << "tarsus-cli: " << file
                 << " is read, or written a second time, by this command and would be overwritten; "

@@ -1,11 +1,10 @@
 #include "app/cli/print_report.h"
 
+#include "app/cli/qt_session.h"
 #include "app/version.h"
 #include "measurement/report/close_view.h"
 #include "measurement/report/report.h"
 #include "reconstruction/base/atomic_file.h"
-
-#include <QGuiApplication>
 
 #include <nlohmann/json.hpp>
 
@@ -17,24 +16,6 @@ namespace tarsus {
 namespace {
 
 using nlohmann::json;
-
-/// Text painting needs one; no display does.
-void startGui() {
-  if (QGuiApplication::instance() != nullptr) {
-    return;
-  }
-  ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
-  // Qt's hints on the session (a missing XDG_RUNTIME_DIR, say) are none of our user's business.
-  qInstallMessageHandler([](QtMsgType type, const QMessageLogContext&, const QString& text) {
-    if (type == QtCriticalMsg || type == QtFatalMsg) {
-      std::fprintf(stderr, "%s\n", qPrintable(text));
-    }
-  });
-  static int argc = 1;
-  static char name[] = "tarsus-cli";
-  static char* argv[] = {name, nullptr};
-  static const QGuiApplication application(argc, argv);
-}
 
 std::string text(const char* format, double value) {
   char buffer[64];
@@ -93,7 +74,7 @@ Expected<void> printReport(const std::filesystem::path& pdf,
                            const MeasuredModel& measured,
                            const std::filesystem::path& model_file,
                            const std::string& title) {
-  startGui();
+  startQt();
   ReportContent content = illustrate(measured.foot, measured.wound, measured.landmarks);
   content.title_line = title;
   content.fit_for_measurement = measured.fit_for_measurement;

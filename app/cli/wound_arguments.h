@@ -1,9 +1,7 @@
 #pragma once
 
 #include "app/cli/command.h"
-#include "measurement/wound/measure.h"
-#include "measurement/wound/tissue.h"
-#include "reconstruction/scene/mesh.h"
+#include "measurement/wound/wound_files.h"
 
 #include <filesystem>
 #include <vector>
@@ -22,18 +20,10 @@ struct WoundArguments {
 
 void addWoundOptions(CLI::App& sub, WoundArguments& arguments);
 
-struct MeasuredModel {
-  TexturedMesh foot;
-  WoundOutline outline;
-  MeasuredWound wound;
-  std::optional<Landmarks> landmarks;
-  std::optional<TissueShares> tissue;
-  bool fit_for_measurement = true;              ///< as the model's file says
-  std::optional<OutlineSource> outline_source;  ///< as the outline's file says
-};
+[[nodiscard]] WoundFiles filesOf(const WoundArguments& arguments);
 
 /// Reads model, curves and paint, and measures.
-/// @errors those of readPly, traceOutline, measureWound, readTissue, sharesOf
+/// @errors those of the other measureFiles
 [[nodiscard]] Expected<MeasuredModel> measureFiles(const WoundArguments& arguments);
 
 /// measurement.json: the numbers with tissue, version and warnings.

@@ -112,20 +112,14 @@ Expected<Visit> readVisit(const Revision& revision) {
   if (!state) {
     return content.damaged("state");
   }
-  Visit visit{.id = revision.record,
-              .wound_id = revision.parent,
-              .revision = revision.revision,
-              .state = *state,
-              .content = {.taken_at_ms = content.integer("taken_at_ms"),
-                          .usable_scan = content.flag("usable_scan"),
-                          .fields = content.value("fields")},
-              .signed_by = content.text("signed_by"),
-              .signed_at_ms = content.integer("signed_at_ms"),
-              .last_action = revision.action,
-              .reason = revision.reason,
-              .author = revision.author,
-              .at_ms = revision.at_ms,
-              .trashed = revision.trashed};
+  Visit visit;
+  visit.id = revision.record;
+  visit.wound_id = revision.parent;
+  visit.revision = revision.revision;
+  visit.state = *state;
+  visit.content.taken_at_ms = content.integer("taken_at_ms");
+  visit.content.usable_scan = content.flag("usable_scan");
+  visit.content.fields = content.value("fields");
   for (const json& file : content.value("files")) {
     if (file.is_object()) {
       visit.content.files.push_back({.role = file.value("role", ""),
@@ -133,6 +127,13 @@ Expected<Visit> readVisit(const Revision& revision) {
                                      .title = file.value("title", "")});
     }
   }
+  visit.signed_by = content.text("signed_by");
+  visit.signed_at_ms = content.integer("signed_at_ms");
+  visit.last_action = revision.action;
+  visit.reason = revision.reason;
+  visit.author = revision.author;
+  visit.at_ms = revision.at_ms;
+  visit.trashed = revision.trashed;
   return visit;
 }
 
