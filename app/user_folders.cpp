@@ -1,5 +1,8 @@
 #include "app/user_folders.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <cstdlib>
 
 namespace tarsus {
@@ -10,8 +13,11 @@ std::filesystem::path userDataFolder() {
     return std::filesystem::path(data) / "tarsus";
   }
   const char* home = std::getenv("HOME");
-  return std::filesystem::path(home != nullptr && *home != '\0' ? home : "/") / ".local" / "share" /
-         "tarsus";
+  if (home == nullptr || *home == '\0') {
+    const passwd* user = getpwuid(getuid());
+    home = user != nullptr ? user->pw_dir : "/";
+  }
+  return std::filesystem::path(home) / ".local" / "share" / "tarsus";
 }
 
 std::filesystem::path calibrationFolder() { return userDataFolder() / "calibration"; }

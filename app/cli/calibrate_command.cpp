@@ -1,3 +1,4 @@
+#include "app/cli/checks.h"
 #include "app/cli/command.h"
 #include "app/user_folders.h"
 #include "reconstruction/capture/calibration/calibration.h"
@@ -82,15 +83,8 @@ const char* nameOf(BoardLook look) {
   return "";
 }
 
-/// @errors BadOption, those of OpenNiCamera::open and takeCalibrationViews
+/// @errors those of OpenNiCamera::open and takeCalibrationViews
 Expected<void> takeViews(const Arguments& arguments, const Job& job) {
-  std::error_code ignored;
-  if (fs::exists(arguments.views / "color", ignored)) {
-    return fail(ErrorCode::BadOption,
-                arguments.views.string() +
-                    " holds views already; calibrate from them without --device, or name another "
-                    "folder");
-  }
   const auto camera = OpenNiCamera::open(
       arguments.simulated.empty() ? arguments.device : simulatedUri(arguments.simulated.string()));
   if (!camera) {
@@ -145,6 +139,11 @@ Expected<nlohmann::json> calibrate(Arguments arguments, bool printing, const Job
     return tl::unexpected(capture.error());
   }
   const auto profile = calibrateCameras(*capture, arguments.options, to_the_end);
+  if (!profile && arguments.live) {
+    return fail(profile.error().code,
+                profile.error().detail + "; the views are kept in " + arguments.views.string() +
+                    ", and the same command adds more to them");
+  }
   if (!profile) {
     return tl::unexpected(profile.error());
   }

@@ -1,3 +1,4 @@
+#include "app/cli/checks.h"
 #include "app/cli/command.h"
 #include "app/user_folders.h"
 #include "reconstruction/capture/frame_preparation.h"
@@ -10,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -56,41 +58,37 @@ struct RecordArguments {
   fs::path out;
   std::string device;
   fs::path simulated;
-  fs::path calibration;  ///< a profile, or a folder of them; empty: the user's own folder
+  std::optional<fs::path> calibration;  ///< a profile, or a folder of them; else the user's own
   double seconds = 20.0;
 };
+
+/// By the calibration that is named, which must be there, or else the newest of the user's own.
+/// @errors BadOption, those of knownCamera
+Expected<KnownCamera> cameraAsCalibrated(const OpenNiCamera& camera,
+                                         const std::optional<fs::path>& calibration) {
+  auto known = knownCamera(camera, calibration.value_or(calibrationFolder()), todayUtc());
+  if (known && calibration && !known->calibrated) {
+    return fail(ErrorCode::BadOption,
+                "there is no calibration of this camera at \"" + calibration->string() + "\"");
+  }
+  return known;
+}
 
 /// Where the frames go while they come: the folder that is asked for, or one beside the recording.
 fs::path folderFor(const fs::path& out) {
   return out.extension() == ".oni" ? fs::path(out.string() + ".scan") : out;
 }
 
-/// A scan cannot be taken a second time: none is written over.
-/// @errors BadOption
-Expected<void> checkFree(const fs::path& out, const fs::path& folder) {
-  std::error_code ignored;
-  if (fs::exists(folder / "depth.txt", ignored)) {
-    return fail(ErrorCode::BadOption,
-                folder.string() + " holds a scan already" +
-                    (folder != out ? ", from a recording that was interrupted" : "") +
-                    "; move it away or give another name");
-  }
-  if (folder != out && fs::exists(out, ignored)) {
-    return fail(ErrorCode::BadOption,
-                out.string() + " is there already; move it away or give another name");
-  }
-  return {};
-}
-
 /// Looks at some frames whether their depth can be a foot's: a wrong unit or a broken camera is
 /// told when the scan is taken, not when the patient is gone.
 class DepthLook {
  public:
-  explicit DepthLook(double units_per_m) : units_per_m_(units_per_m) {}
-  /// On the camera's thread; costs a millisecond for one frame in ten.
+  explicit DepthLook(const RgbdCamera& camera)
+      : units_per_m_(camera.depth_units_per_m),
+        every_(std::max(1, static_cast<int>(camera.frames_per_s / 6.0))) {}
+  /// On the camera's thread; a millisecond for one frame, six times a second.
   void add(const RgbdFrame& frame) {
-    constexpr int kEvery = 10;
-    const auto median_mm = frame.index % kEvery == 0 ? medianDepth(frame.depth) : std::nullopt;
+    const auto median_mm = frame.index % every_ == 0 ? medianDepth(frame.depth) : std::nullopt;
     if (median_mm) {
       ++looks_;
       doubtful_ += checkMedianDepth(*median_mm, units_per_m_) ? 0 : 1;
@@ -109,6 +107,7 @@ class DepthLook {
 
  private:
   double units_per_m_;
+  int every_;
   int looks_ = 0;
   int doubtful_ = 0;
 };
@@ -129,6 +128,13 @@ Warnings troubles(const CaptureCounts& captured, int dropped) {
                             " frames were lost between the camera and the disk. Where there are "
                             "many, close other programs, and plug the camera into a port of its "
                             "own."});
+  }
+  if (captured.unpaired * 5 > captured.pairs) {
+    warnings.push_back({"color_missing",
+                        std::to_string(captured.unpaired) + " of " +
+                            std::to_string(captured.pairs) +
+                            " frames came without colour; the model will lack it in places. Plug "
+                            "the camera in again and take the scan anew."});
   }
   return warnings;
 }
@@ -177,8 +183,15 @@ Expected<void> recordFrames(
 
 Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, const Job& job) {
   const fs::path folder = folderFor(arguments.out);
-  if (auto free = checkFree(arguments.out, folder); !free) {
-    return tl::unexpected(free.error());
+  std::error_code ignored;
+  if (folder != arguments.out && fs::exists(arguments.out, ignored)) {
+    return fail(ErrorCode::BadOption,
+                arguments.out.string() + " is there already; move it away or give another name");
+  }
+  // Before the camera is opened, which takes a second in which somebody clicks twice.
+  const auto claim = ScanClaim::take(folder);
+  if (!claim) {
+    return tl::unexpected(claim.error());
   }
   const std::string uri =
       arguments.simulated.empty() ? arguments.device : simulatedUri(arguments.simulated.string());
@@ -186,10 +199,7 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
   if (!camera) {
     return tl::unexpected(camera.error());
   }
-  const auto known =
-      knownCamera(**camera,
-                  arguments.calibration.empty() ? calibrationFolder() : arguments.calibration,
-                  todayUtc());
+  const auto known = cameraAsCalibrated(**camera, arguments.calibration);
   if (!known) {
     return tl::unexpected(known.error());
   }
@@ -198,15 +208,16 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
   if (!recorder) {
     return tl::unexpected(recorder.error());
   }
-  DepthLook look(known->camera.depth_units_per_m);
+  DepthLook look(known->camera);
   const auto recorded = recordFrames(**camera, **recorder, look, arguments.seconds, job);
   auto finished = (*recorder)->finish();
   const RecorderCounts kept = (*recorder)->counts();
   if (!recorded || !finished) {
     const Error& why = !recorded ? recorded.error() : finished.error();
-    return fail(why.code,
-                why.detail + "; the first " + std::to_string(kept.written) +
-                    " frames are kept in " + folder.string());
+    return kept.written == 0 ? fail(why.code, why.detail)
+                             : fail(why.code,
+                                    why.detail + "; the first " + std::to_string(kept.written) +
+                                        " frames are kept in " + folder.string());
   }
   const CaptureCounts counts = (*camera)->counts();
   if (kept.written == 0) {
@@ -219,7 +230,6 @@ Expected<nlohmann::json> record(const RecordArguments& arguments, bool print, co
       return fail(written.error().code,
                   written.error().detail + "; the frames are kept in " + folder.string());
     }
-    std::error_code ignored;
     fs::remove_all(folder, ignored);
   }
   const int dropped = counts.dropped + kept.dropped;
@@ -256,6 +266,9 @@ void addDevices(CLI::App& app, Command& command) {
   sub->callback([&command, simulated] {
     command.run = [&command, simulated](const Job& /*job*/) {
       if (!simulated->empty()) {
+        if (auto usable = readCamera(*simulated / "camera.json"); !usable) {
+          return Expected<nlohmann::json>(tl::unexpected(usable.error()));
+        }
         announceSimulatedCamera(simulated->string());
       }
       return printCameras(!command.quiet && command.json_file != "-");
@@ -267,7 +280,8 @@ void addRecord(CLI::App& app, Command& command) {
   auto arguments = std::make_shared<RecordArguments>();
   CLI::App* sub = addCommand(app, command, "record", "Record a scan from a depth camera");
   sub->add_option("OUT", arguments->out, "The recording (.oni) or scan folder to write")
-      ->required();
+      ->required()
+      ->check(notEmpty());
   auto* device =
       sub->add_option("--device", arguments->device, "Which camera, as `devices` names it")
           ->type_name("URI");
@@ -280,7 +294,7 @@ void addRecord(CLI::App& app, Command& command) {
          "What `calibrate` wrote, or a folder of it; else the newest of this camera is taken")
       ->type_name("FILE");
   sub->add_option("--seconds", arguments->seconds, "How long; Ctrl-C ends it earlier")
-      ->check(CLI::Range(0.1, 600.0))
+      ->check(inRange(0.1, 600.0))
       ->capture_default_str();
   sub->callback([&command, arguments] {
     command.run = [&command, arguments](const Job& job) {

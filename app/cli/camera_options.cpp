@@ -1,5 +1,7 @@
 #include "app/cli/camera_options.h"
 
+#include "app/cli/checks.h"
+
 #include <CLI/CLI.hpp>
 
 namespace tarsus {
@@ -10,7 +12,7 @@ void addCameraOptions(CLI::App& sub, CameraArguments& arguments) {
       ->expected(4)
       ->type_name("FX,FY,CX,CY");
   sub.add_option("--depth-scale", arguments.depth_scale, "Depth units per metre (8000: 0.125 mm)")
-      ->check(CLI::PositiveNumber);
+      ->check(inRange(1e-6, 1e9));
 }
 
 CameraOverrides overridesOf(const CameraArguments& arguments) {

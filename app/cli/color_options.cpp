@@ -1,5 +1,7 @@
 #include "app/cli/color_options.h"
 
+#include "app/cli/checks.h"
+
 #include <CLI/CLI.hpp>
 
 namespace tarsus {
@@ -26,7 +28,7 @@ void addColorOptions(CLI::App& sub, const char* iterations_flag, ColorArguments&
   sub.add_option("--card-pitch-mm",
                  arguments.card_pitch_mm,
                  "Middle to middle of the card's patches: checks the scan's scale")
-      ->check(CLI::Range(1.0, 100.0))
+      ->check(inRange(1.0, 100.0))
       ->needs(card);
   sub.add_option("--grey-card",
                  arguments.grey_card,

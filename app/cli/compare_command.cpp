@@ -1,3 +1,4 @@
+#include "app/cli/checks.h"
 #include "app/cli/command.h"
 #include "app/cli/print_comparison.h"
 #include "app/cli/wound_arguments.h"
@@ -154,7 +155,7 @@ void addCompare(CLI::App& app, Command& command) {
   addVisit(*sub, "a", arguments->a);
   addVisit(*sub, "b", arguments->b);
   sub->add_option("--days", arguments->days, "Days between the visits, for rates by week")
-      ->check(CLI::PositiveNumber);
+      ->check(inRange(1e-6, 1e9));
   sub->add_option("--map", arguments->map, "Write the signed change map here")
       ->type_name("OUT.ply");
   sub->add_option(

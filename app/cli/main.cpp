@@ -25,7 +25,8 @@ std::stop_source& stopSource() {
 
 /// Ctrl+C asks the running stage to stop, so that temporary files are cleaned up.
 void stopOnInterrupt() {
-  stopSource();  // made now: a signal handler must not
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk
+  stopSource();                   // made now: a signal handler must not
   std::signal(SIGINT, [](int) {
     stopSource().request_stop();
     std::signal(SIGINT, SIG_DFL);  // the second one ends at once

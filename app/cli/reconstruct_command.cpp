@@ -1,4 +1,5 @@
 #include "app/cli/camera_options.h"
+#include "app/cli/checks.h"
 #include "app/cli/color_options.h"
 #include "app/cli/command.h"
 #include "app/cli/print.h"
@@ -101,7 +102,7 @@ void addReconstruct(CLI::App& app, Command& command) {
   sub->add_option("OUT_DIR", arguments->out, "Where model.ply and the rest are written")
       ->required();
   sub->add_option("--voxel-mm", arguments->options.surface.voxel_size_mm, "Voxel size")
-      ->check(CLI::Range(0.25, 10.0))
+      ->check(inRange(0.25, 10.0))
       ->capture_default_str();
   sub->add_flag("--no-texture", arguments->no_texture, "Geometry and fused colours only");
   sub->add_flag("--keep-background",

@@ -1,3 +1,4 @@
+#include "app/cli/checks.h"
 #include "app/cli/simulate_options.h"
 #include "reconstruction/capture/openni/oni_file.h"
 #include "reconstruction/capture/simulator/simulator.h"
@@ -57,10 +58,10 @@ void addSimulationOptions(CLI::App& sub, SimulatorOptions& options) {
       ->capture_default_str();
   sub.add_option("--seed", options.seed, "Of the noise")->capture_default_str();
   sub.add_option("--noise", options.noise, "0: none, 1: as a structured-light camera")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(inRange(0.0, 10.0))
       ->capture_default_str();
   sub.add_option("--jitter-mm", options.jitter_mm, "Hand shake, standard deviation")
-      ->check(CLI::Range(0.0, 20.0))
+      ->check(inRange(0.0, 20.0))
       ->capture_default_str();
   sub.add_option("--camera", options.layout, "Colour camera: aligned with depth, or offset")
       ->transform(CLI::CheckedTransformer(layouts).description(""))
@@ -102,10 +103,10 @@ void addVisitOptions(CLI::App& sub, SimulatorOptions& options, LaterVisit& visit
       ->check(CLI::Range(0, 52))
       ->needs(course);
   sub.add_option("--area-factor", options.area_factor, "Openings against the first visit")
-      ->check(CLI::Range(0.01, 4.0))
+      ->check(inRange(0.01, 4.0))
       ->excludes(course);
   sub.add_option("--depth-factor", options.depth_factor, "Depths against the first visit")
-      ->check(CLI::Range(0.01, 4.0))
+      ->check(inRange(0.01, 4.0))
       ->excludes(course);
   sub.add_flag("--split", options.split, "Each ulcer healed across into two")->excludes(course);
   sub.add_option("--posed",

@@ -35,6 +35,9 @@ struct Patient {
 /// @errors RecordMissing
 [[nodiscard]] Expected<Patient> findPatient(Store& store, std::string_view id);
 
+/// All patients without those in the trash or merged into another, by name.
+[[nodiscard]] Expected<std::vector<Patient>> allPatients(Store& store);
+
 /// Patients of whom each word of the query begins a word of the name, the identifier or the birth
 /// date, whatever the case and accents; without those in the trash or merged into another. The
 /// first search after signing in reads all names.

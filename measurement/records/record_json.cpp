@@ -94,7 +94,8 @@ std::string isoTime(std::int64_t at_ms) {
 Expected<std::int64_t> millisecondsOf(std::string_view iso_time) {
   const std::string text(iso_time);
   std::tm parts{};
-  for (const char* format : {"%Y-%m-%dT%H:%M:%SZ", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M", "%Y-%m-%d"}) {
+  for (const char* format :
+       {"%Y-%m-%dT%H:%M:%SZ", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M", "%Y-%m-%d"}) {
     parts = {};
     const char* end = strptime(text.c_str(), format, &parts);
     if (end == nullptr || *end != '\0') {

@@ -29,7 +29,7 @@ constexpr std::array kEntries{
           "A file could not be written; check the folder and your rights in it."},
     Entry{ErrorCode::DiskFull,
           "disk_full",
-          "The disk is full; free some space and try again. Nothing was left half-written."},
+          "The disk is full; free some space and try again."},
     Entry{ErrorCode::CameraFactsMissing,
           "camera_facts_missing",
           "The scan does not say how its camera sees; put a camera.json into the scan folder or "

@@ -1,6 +1,7 @@
 #include "reconstruction/capture/json_fields.h"
 
 #include <cmath>
+#include <utility>
 
 namespace tarsus {
 namespace {
@@ -65,6 +66,47 @@ double numberField(const json& object, const std::string& key) {
   return value;
 }
 
+namespace {
+
+/// Generous bounds: what lies outside is a slip of the pen, and would make wrong millimetres.
+bool isPlausible(const Intrinsics& lens) {
+  const auto within = [](double value, double low, double high) {
+    return value >= low && value <= high;
+  };
+  const double x = std::max(lens.cx_px, lens.width - lens.cx_px) / lens.fx_px;
+  const double y = std::max(lens.cy_px, lens.height - lens.cy_px) / lens.fy_px;
+  const double r2 = x * x + y * y;  // at the farthest corner
+  const auto& [k1, k2, p1, p2, k3] = lens.distortion;
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return within(lens.fx_px, 0.2 * lens.width, 10.0 * lens.width) &&
+         within(lens.fy_px / lens.fx_px, 0.5, 2.0) &&
+         within(lens.cx_px, -0.5 * lens.width, 1.5 * lens.width) &&
+         within(lens.cy_px, -0.5 * lens.height, 1.5 * lens.height) && within(radial, 0.5, 2.0) &&
+         within(p1, -0.2, 0.2) && within(p2, -0.2, 0.2);
+}
+
+/// No depth camera is off by more than a fifth anywhere in a scan.
+bool isPlausible(const DepthCorrection& correction) {
+  for (const double z_m : {0.3, 0.6}) {
+    for (const double x : {-0.6, 0.0, 0.6}) {
+      for (const double y : {-0.5, 0.0, 0.5}) {
+        const auto c = [&](const DepthCorrection::Quadratic& a) {
+          return a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y;
+        };
+        const double shift_mm = c(correction.polynomial[0]) + z_m * c(correction.polynomial[1]) +
+                                z_m * z_m * c(correction.polynomial[2]);
+        const double ratio = correction.scale * (1000.0 * z_m + shift_mm) / (1000.0 * z_m);
+        if (!(ratio > 0.8 && ratio < 1.25)) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 Intrinsics intrinsicsField(const json& object, const std::string& key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_object()) {
@@ -119,6 +161,9 @@ DepthCorrection depthCorrectionField(const json& object, const std::string& key)
     correction.polynomial = {
         quadratic(*polynomial, "c0"), quadratic(*polynomial, "c1"), quadratic(*polynomial, "c2")};
   }
+  if (!isPlausible(correction)) {
+    throw InvalidField{"\"" + key + "\" changes depths by more than a fifth, as no camera needs"};
+  }
   return correction;
 }
 
@@ -129,6 +174,11 @@ RgbdCamera cameraFields(const json& object) {
   RgbdCamera camera;
   camera.depth = intrinsicsField(object, "depth");
   camera.color = intrinsicsField(object, "color");
+  for (const auto& [lens, key] : {std::pair(&camera.depth, "depth"), {&camera.color, "color"}}) {
+    if (!isPlausible(*lens)) {
+      throw InvalidField{"\"" + std::string(key) + "\" describes a lens that no camera has"};
+    }
+  }
   camera.depth_units_per_m = numberField(object, "depth_scale");
   if (camera.depth_units_per_m <= 0.0) {
     throw InvalidField{"\"depth_scale\" (units per metre) must be greater than 0"};
@@ -148,6 +198,11 @@ RgbdCamera cameraFields(const json& object) {
   };
   camera.model = text("model");
   camera.serial = text("serial");
+  if (camera.color_from_depth.translation().norm() > 500.0) {
+    throw InvalidField{
+        "\"color_from_depth\" puts the cameras more than half a metre apart; its "
+        "translation is in metres"};
+  }
   return camera;
 }
 

@@ -74,8 +74,8 @@ double ScanRecorder::State::freeMb() const {
 Expected<double> ScanRecorder::State::writeImages(const RgbdFrame& frame) const {
   if (freeMb() < options.least_free_mb) {
     return fail(ErrorCode::DiskFull,
-                "less than " + std::to_string(options.least_free_mb) + " MB are free at " +
-                    folder.string());
+                "less than " + std::to_string(static_cast<int>(options.least_free_mb)) +
+                    " MB are free at " + folder.string());
   }
   const std::string name = timeText(frame.timestamp) + ".png";
   const fs::path depth = folder / "depth" / name;

@@ -10,6 +10,25 @@
 
 namespace tarsus {
 
+/// Nobody else records into this folder while it is held. Given up, it takes with it a folder in
+/// which nothing was recorded.
+class ScanClaim {
+ public:
+  /// Makes the folder. A scan cannot be taken a second time: none is written over.
+  /// @errors BadOption (being recorded now, or a scan is there), FileUnwritable
+  [[nodiscard]] static Expected<ScanClaim> take(const std::filesystem::path& folder);
+  ScanClaim(ScanClaim&& other) noexcept;
+  ScanClaim& operator=(ScanClaim&&) = delete;
+  ScanClaim(const ScanClaim&) = delete;
+  ScanClaim& operator=(const ScanClaim&) = delete;
+  ~ScanClaim();
+
+ private:
+  ScanClaim(std::filesystem::path folder, int file) : folder_(std::move(folder)), file_(file) {}
+  std::filesystem::path folder_;
+  int file_ = -1;  ///< locked; -1: moved away
+};
+
 struct RecorderOptions {
   int most_waiting = 45;               ///< frames in memory (2 MB each) before one is dropped
   double least_free_mb = 500.0;        ///< recording ends before the disk is fuller than that

@@ -53,7 +53,8 @@ class Taking {
       : camera_(camera),
         folder_(folder),
         options_(options),
-        collector_(options.board, camera.camera().color.width) {}
+        collector_(options.board, camera.camera().color.width),
+        number_of_first_(freeNumber(folder)) {}
 
   [[nodiscard]] Newest& newest() { return newest_; }
   [[nodiscard]] int taken() const { return collector_.taken(); }
@@ -63,7 +64,7 @@ class Taking {
     if (look != BoardLook::Taken) {
       return look;
     }
-    CalibrationView view{.name = viewName(taken()),
+    CalibrationView view{.name = viewName(number_of_first_ + taken() - 1),
                          .color = frame.color,
                          .infrared = {},
                          .depth = rawDepth(frame.depth, camera_.camera().depth_units_per_m)};
@@ -98,10 +99,21 @@ class Taking {
     return false;
   }
 
+  /// Views that are there already stay.
+  static int freeNumber(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    int number = 1;
+    while (std::filesystem::exists(folder / "color" / (viewName(number) + ".png"), ignored)) {
+      ++number;
+    }
+    return number;
+  }
+
   OpenNiCamera& camera_;
   const std::filesystem::path& folder_;
   const LiveCalibrationOptions& options_;
   ViewCollector collector_;
+  int number_of_first_;
   Newest newest_;
 };
 
@@ -115,9 +127,9 @@ Expected<int> takeCalibrationViews(OpenNiCamera& camera,
   constexpr auto kWait = std::chrono::milliseconds(500);
   constexpr int kMostWaits = 20;
   if (options.infrared && !camera.hasInfrared()) {
-    return fail(ErrorCode::CameraFailed,
-                "this camera gives no infrared pictures; without them (--no-infrared) the depth "
-                "camera's lens stays nominal");
+    return fail(ErrorCode::BadOption,
+                "this camera gives no infrared pictures; add --no-infrared, and the depth camera's "
+                "lens stays nominal");
   }
   if (auto written = writeCamera(folder / "camera.json", camera.camera()); !written) {
     return tl::unexpected(written.error());

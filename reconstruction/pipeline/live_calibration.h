@@ -29,10 +29,12 @@ struct LiveCalibrationView {
 
 /// Takes views of a board that somebody holds before the camera, still for a moment in each place,
 /// into a folder as readCalibrationFolder reads it, until there are enough of them or the job is
-/// stopped (which is no error: those taken are kept). The camera must be stopped.
+/// stopped (which is no error: those taken are kept). Views that the folder holds stay. The camera
+/// must be stopped.
 /// @param tell  called after each look, some times a second, from the caller's thread
 /// @return  how many were taken
-/// @errors  CameraFailed (no frame for 10 s; no infrared pictures), CalibrationFailed (patience at
+/// @errors  BadOption (no infrared sensor), CameraFailed (no frame for 10 s), CalibrationFailed
+/// (patience at
 ///          its end), FileUnwritable, DiskFull
 [[nodiscard]] Expected<int> takeCalibrationViews(
     OpenNiCamera& camera,

@@ -1,9 +1,12 @@
 // store, user, audit, backup, restore: the records as a whole.
+#include "app/cli/checks.h"
 #include "app/cli/qt_session.h"
 #include "app/cli/records/record_commands.h"
 #include "app/cli/records/store_arguments.h"
+#include "app/version.h"
 #include "measurement/records/backup.h"
 #include "measurement/records/check.h"
+#include "measurement/records/export/export.h"
 #include "measurement/records/record_json.h"
 #include "measurement/records/sign_in.h"
 #include "measurement/records/users.h"
@@ -11,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 namespace tarsus {
@@ -302,6 +306,43 @@ void addBackup(CLI::App& app, Command& command) {
   });
 }
 
+void addExport(CLI::App& app, Command& command) {
+  struct Arguments {
+    fs::path out;
+    std::string visit;
+    ExportOptions options;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub = addCommand(
+      app, command, "export", "Records for other programs: tables, JSON, models, with a manifest");
+  sub->add_option("OUT", arguments->out, "A folder that is not there yet, or a .zip")
+      ->required()
+      ->check(notEmpty());
+  sub->add_option("--visit", arguments->visit, "This visit alone; else all patients");
+  sub->add_flag("--pseudonymised",
+                arguments->options.pseudonymised,
+                "For research: no names, no dates, no free text, no photographs");
+  sub->add_flag("!--no-models", arguments->options.models, "Tables and curves only");
+  runInStore(*sub, command, [&command, arguments](Store& store, const Job& job) -> Expected<json> {
+    arguments->options.version = TARSUS_VERSION;
+    const auto done =
+        arguments->visit.empty()
+            ? exportStore(store, arguments->out, arguments->options, job)
+            : exportVisit(store, arguments->visit, arguments->out, arguments->options, job);
+    if (!done) {
+      return tl::unexpected(done.error());
+    }
+    if (prints(command)) {
+      std::printf("Wrote %s: %zu visits, %zu files, %.1f MB\n",
+                  arguments->out.c_str(),
+                  done->visits,
+                  done->files,
+                  1e-6 * static_cast<double>(done->bytes));
+    }
+    return json{{"visits", done->visits}, {"files", done->files}, {"bytes", done->bytes}};
+  });
+}
+
 }  // namespace
 
 void addStoreCommands(CLI::App& app, Command& command) {
@@ -313,6 +354,7 @@ void addStoreCommands(CLI::App& app, Command& command) {
   addUserCommands(app, command);
   addAudit(app, command);
   addBackup(app, command);
+  addExport(app, command);
 }
 
 }  // namespace tarsus

@@ -48,8 +48,8 @@ struct CalibrationOptions {
 /// Both cameras must be mounted the same way up, or `nominal` must tell their rotation.
 /// @return  with every view used or refused, and why
 /// @errors  BadOption (board, date), CameraFactsMissing (no infrared and nothing nominal, depth
-///          without unit), DepthUnitImplausible, Cancelled, CalibrationFailed (no view, sizes that
-///          change, board not found, too few views, focal length undetermined)
+///          without unit), Cancelled, CalibrationFailed (no view, sizes that change, board not
+///          found, too few views, focal length undetermined, squares or depth unit not as given)
 [[nodiscard]] Expected<CalibrationProfile> calibrateCameras(const CalibrationCapture& capture,
                                                             const CalibrationOptions& options,
                                                             const Job& job = {});

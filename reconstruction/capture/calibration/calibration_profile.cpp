@@ -116,14 +116,22 @@ FoundCalibration newestCalibration(const fs::path& folder, std::string_view seri
     }
   }
   std::ranges::sort(files);
+  std::vector<std::string> unreadable;
   for (const fs::path& file : files) {
     auto profile = readCalibration(file);
     if (!profile) {
-      found.warnings.push_back({"calibration_unreadable", describe(profile.error())});
+      unreadable.push_back(file.filename().string() + " (" + profile.error().detail + ")");
     } else if (profile->camera.serial == serial && !serial.empty() &&
                (!found.profile || profile->date >= found.profile->date)) {
       found.profile = std::move(*profile);
     }
+  }
+  if (!unreadable.empty()) {
+    const std::string others =
+        unreadable.size() > 1 ? " and " + std::to_string(unreadable.size() - 1) + " more" : "";
+    found.warnings.push_back({"calibration_unreadable",
+                              folder.string() + " holds files that are no calibration: " +
+                                  unreadable.front() + others + ". Remove them."});
   }
   return found;
 }

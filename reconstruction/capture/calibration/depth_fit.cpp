@@ -18,6 +18,7 @@ constexpr int kLeastViews = 3;
 constexpr double kSameRatio = 0.04;   ///< views farther from the median ratio are refused
 constexpr double kNotWorse = 1.02;    ///< fewer terms are preferred up to this much more error
 constexpr double kSuspicious = 0.03;  ///< of the scale
+constexpr double kWrong = 0.10;       ///< no camera is: squares or unit are not as given
 constexpr double kWideRange = 1.3;    ///< farthest by nearest, for terms that grow with z
 constexpr int kViewsPerTerm = 1;      ///< views are what is independent, not pixels
 /// How large a coefficient can be expected: it decides only where the views do not. Our choice.
@@ -321,14 +322,15 @@ Expected<DepthResult> fitDepth(const std::vector<DepthView>& views,
   }
   finish(used, result);
   const double scale = result.correction->scale;
-  if (!(scale > 0.5 && scale < 2.0)) {
+  if (!(std::abs(scale - 1.0) < kWrong)) {
     char text[200];
-    std::snprintf(text,
-                  sizeof text,
-                  "the depth of the board must be multiplied by %.3f; correct \"depth_scale\" of "
-                  "camera.json or the size of the squares",
-                  scale);
-    return fail(ErrorCode::DepthUnitImplausible, text);
+    std::snprintf(
+        text,
+        sizeof text,
+        "the depth of the board must be multiplied by %.3f; measure the printed squares with a "
+        "ruler and give their size, or correct \"depth_scale\" of camera.json",
+        scale);
+    return fail(ErrorCode::CalibrationFailed, text);
   }
   return result;
 }

@@ -25,7 +25,7 @@ struct DepthResult {
 /// depth_correction.h: scale alone, or with constant, quadratic, linear in z and square in z terms,
 /// whichever few predict views that were left out as well as more would.
 /// @param camera  depth camera with its distortion
-/// @errors DepthUnitImplausible
+/// @errors CalibrationFailed (squares or depth unit are not as given)
 [[nodiscard]] Expected<DepthResult> fitDepth(const std::vector<DepthView>& views,
                                              const RgbdCamera& camera,
                                              const CalibrationOptions& options);

@@ -16,6 +16,11 @@ Expected<FoundCalibration> findCalibration(const std::filesystem::path& calibrat
     if (!read) {
       return tl::unexpected(read.error());
     }
+    if (!read->camera.serial.empty() && !serial.empty() && read->camera.serial != serial) {
+      return fail(ErrorCode::BadOption,
+                  calibration.string() + " is the calibration of camera " + read->camera.serial +
+                      ", and this is camera " + std::string(serial));
+    }
     return FoundCalibration{.profile = std::move(*read), .warnings = {}};
   }
   return newestCalibration(calibration, serial);
@@ -35,6 +40,7 @@ Expected<KnownCamera> knownCamera(const RgbdCamera& sensor,
   const Warnings doubts = doubtsAboutCalibration(profile ? &*profile : nullptr, sensor, today);
   known.warnings.insert(known.warnings.end(), doubts.begin(), doubts.end());
   if (profile) {
+    known.calibrated = true;
     known.camera = calibrated(sensor, *profile);
     known.facts.depth_correction = profile->depth_correction;
   }

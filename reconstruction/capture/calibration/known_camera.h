@@ -13,6 +13,7 @@ struct KnownCamera {
   RgbdCamera camera;
   ScanFacts facts;  ///< its depth correction
   Warnings warnings;
+  bool calibrated = false;  ///< by a profile
 };
 
 /// A camera by its calibration.
@@ -20,7 +21,9 @@ struct KnownCamera {
 /// @param calibration  a profile, or a folder of them of which the newest of this serial number is
 ///                     taken; where there is none the camera stays nominal, with a warning
 /// @param today        ISO 8601
-/// @errors those of readCalibration, for a profile that is named
+/// @errors those of readCalibration, for a profile that is named; BadOption where that is of
+/// another
+///         camera
 [[nodiscard]] Expected<KnownCamera> knownCamera(const RgbdCamera& sensor,
                                                 const std::filesystem::path& calibration,
                                                 std::string_view today);

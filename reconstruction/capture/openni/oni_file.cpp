@@ -6,6 +6,7 @@
 #include "reconstruction/capture/frame_preparation.h"
 #include "reconstruction/capture/openni/openni_frames.h"
 #include "reconstruction/capture/openni/openni_library.h"
+#include "reconstruction/capture/openni/plain_path.h"
 #include "reconstruction/capture/openni/simulated_camera/address.h"
 
 #include <OpenNI.h>
@@ -163,7 +164,11 @@ Expected<void> OniSource::open(const CameraOverrides& overrides) {
   if (!fs::is_regular_file(file_, ignored)) {
     return fail(ErrorCode::FileMissing, file_.string());
   }
-  if (auto opened = played_.open(file_.string(), file_.string()); !opened) {
+  const auto plain = plainPath(file_);
+  if (!plain) {
+    return tl::unexpected(plain.error());
+  }
+  if (auto opened = played_.open(plain->string(), file_.string()); !opened) {
     return opened;
   }
   const auto sensor = cameraOf(file_, overrides, played_);
@@ -354,8 +359,12 @@ Expected<void> untilFrame(int last, Played& played, const Job& job) {
 /// Plays the folder into OpenNI's recorder.
 Expected<void> recordFolder(const fs::path& folder, const fs::path& temporary, const Job& job) {
   Played played;
-  const std::string uri = simulatedUri(folder.string()) + std::string(kSimulatedOnce);
-  if (auto opened = played.open(uri, folder.string()); !opened) {
+  const auto uri = plainUri(simulatedUri(folder.string()) + std::string(kSimulatedOnce));
+  const auto target = plainPath(temporary);
+  if (!uri || !target) {
+    return tl::unexpected(!uri ? uri.error() : target.error());
+  }
+  if (auto opened = played.open(*uri, folder.string()); !opened) {
     return opened;
   }
   const auto frames = listFrames(folder);
@@ -365,7 +374,7 @@ Expected<void> recordFolder(const fs::path& folder, const fs::path& temporary, c
   openni::Recorder recorder;
   Expected<void> recorded;
   onOpenNiThread([&] {
-    const bool ready = recorder.create(temporary.c_str()) == openni::STATUS_OK &&
+    const bool ready = recorder.create(target->c_str()) == openni::STATUS_OK &&
                        recorder.attach(played.depth, false) == openni::STATUS_OK &&
                        recorder.attach(played.color, false) == openni::STATUS_OK &&
                        played.depth.start() == openni::STATUS_OK &&

@@ -1,9 +1,13 @@
 #include "reconstruction/capture/openni/openni_camera.h"
 
 #include "reconstruction/base/require.h"
+#include "reconstruction/capture/camera_file.h"
+#include "reconstruction/capture/frame_list.h"
 #include "reconstruction/capture/openni/camera_facts.h"
 #include "reconstruction/capture/openni/openni_frames.h"
 #include "reconstruction/capture/openni/openni_library.h"
+#include "reconstruction/capture/openni/plain_path.h"
+#include "reconstruction/capture/openni/simulated_camera/address.h"
 
 #include <OpenNI.h>
 
@@ -383,6 +387,20 @@ Expected<std::unique_ptr<OpenNiCamera>> OpenNiCamera::open(const std::string& ur
       return fail(ErrorCode::CameraNotFound, "no camera is plugged in");
     }
     state->uri = cameras->front().uri;
+  }
+  // What is wrong with a recorded scan is better said than "no such camera".
+  if (const auto address = parseSimulatedAddress(state->uri)) {
+    const auto usable = readCamera(address->scan / "camera.json").and_then([&](const RgbdCamera&) {
+      return listFrames(address->scan);
+    });
+    if (!usable) {
+      return tl::unexpected(usable.error());
+    }
+    auto plain = plainUri(state->uri);
+    if (!plain) {
+      return tl::unexpected(plain.error());
+    }
+    state->uri = std::move(*plain);
   }
   if (auto opened = state->openDevice(); !opened) {
     return tl::unexpected(opened.error());

@@ -1,6 +1,7 @@
 #include "reconstruction/capture/openni/openni_library.h"
 
 #include "reconstruction/capture/device_profile.h"
+#include "reconstruction/capture/openni/plain_path.h"
 #include "reconstruction/capture/openni/simulated_camera/address.h"
 
 #include <OpenNI.h>
@@ -75,6 +76,14 @@ Expected<std::shared_ptr<OpenNiLibrary>> OpenNiLibrary::hold() {
   const std::scoped_lock lock(held_mutex);
   if (auto library = held.lock()) {
     return library;
+  }
+  // Our driver reads it as OpenNI starts.
+  if (const char* announced = std::getenv(kSimulatedVariable); announced != nullptr) {
+    const auto plain = plainUri(announced);
+    if (!plain) {
+      return tl::unexpected(plain.error());
+    }
+    setenv(kSimulatedVariable, plain->c_str(), 1);
   }
   std::string why;
   bool started = false;

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace tarsus {
 namespace {
@@ -66,6 +69,37 @@ TEST(CameraFile, EachMissingFactIsNamed) {
     EXPECT_EQ(camera.error().code, ErrorCode::CameraFactsInvalid);
     EXPECT_NE(camera.error().detail.find(std::string(key).substr(1, 2)), std::string::npos)
         << camera.error().detail;
+  }
+}
+
+/// Slips of the pen that would make wrong millimetres without a word.
+TEST(CameraFile, RefusesLensesThatNoCameraHas) {
+  const std::vector<std::pair<std::string, std::string>> slips{
+      {"\"fx\": 600", "\"fx\": 60000"},
+      {"\"fx\": 600", "\"fx\": 6.0"},
+      {"\"fy\": 601", "\"fy\": 61"},
+      {"\"cx\": 320", "\"cx\": 32000"},
+      {"[0.1, -0.2, 0.001, 0.002, 0.05]", "[5, -3, 0, 0, 0]"},
+      {"[0.1, -0.2, 0.001, 0.002, 0.05]", "[0, 0, 1, 0, 0]"}};
+  for (const auto& [right, wrong] : slips) {
+    std::string text = kWhole;
+    ASSERT_NE(text.find(right), std::string::npos) << right;
+    text.replace(text.find(right), right.size(), wrong);
+    const auto camera = parse(text);
+    ASSERT_FALSE(camera) << wrong;
+    EXPECT_NE(camera.error().detail.find("no camera has"), std::string::npos)
+        << camera.error().detail;
+  }
+}
+
+TEST(CameraFile, RefusesACorrectionThatNoCameraNeeds) {
+  const TemporaryFolder folder;
+  for (const double c0_mm : {200.0, -100.0}) {
+    ScanFacts facts;
+    facts.depth_correction = DepthCorrection{.scale = 1.0, .polynomial = {}};
+    facts.depth_correction->polynomial[0][0] = c0_mm;
+    ASSERT_TRUE(writeCamera(folder.path() / "camera.json", *parse(kWhole), facts));
+    EXPECT_FALSE(readScanFacts(folder.path() / "camera.json")) << c0_mm;
   }
 }
 

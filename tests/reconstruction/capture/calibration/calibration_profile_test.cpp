@@ -1,6 +1,7 @@
 #include "reconstruction/capture/calibration/calibration_profile.h"
 
 #include "reconstruction/base/atomic_file.h"
+#include "reconstruction/capture/calibration/known_camera.h"
 #include "reconstruction/capture/camera_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -142,6 +143,28 @@ TEST(NewestCalibration, IsThatOfTheSerialWithTheLatestDate) {
   EXPECT_FALSE(newestCalibration(folder.path(), "0044").profile);
   EXPECT_FALSE(newestCalibration(folder.path(), "").profile);
   EXPECT_FALSE(newestCalibration(folder.path() / "none", "0042").profile);
+}
+
+TEST(KnownCamera, IsTheNewestOfItsSerialOrNominalWithAWarning) {
+  const TemporaryFolder folder;
+  CalibrationProfile profile = someProfile("2026-05-02T10:00:00Z");
+  ASSERT_TRUE(writeCalibration(folder.path() / "a.json", profile));
+  RgbdCamera sensor = profile.camera;
+  sensor.depth.fx_px *= 1.05;
+  const auto known = knownCamera(sensor, folder.path(), "2026-06-01");
+  ASSERT_TRUE(known) << describe(known.error());
+  EXPECT_TRUE(known->calibrated);
+  EXPECT_EQ(known->camera.depth.fx_px, profile.camera.depth.fx_px);
+  sensor.serial = "another";
+  const auto other = knownCamera(sensor, folder.path(), "2026-06-01");
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(other->calibrated);
+  EXPECT_EQ(codes(other->warnings), Codes{"calibration_missing"});
+  // A file that is named is not taken for another camera.
+  const auto refused = knownCamera(sensor, folder.path() / "a.json", "2026-06-01");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().detail.find("is camera another"), std::string::npos)
+      << refused.error().detail;
 }
 
 TEST(CalibrationFileName, HoldsNothingThatLeavesTheFolder) {

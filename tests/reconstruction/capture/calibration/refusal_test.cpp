@@ -75,7 +75,7 @@ TEST(CalibrationRefuses, ADepthUnitThatIsEightTimesWrong) {
   ASSERT_TRUE(calibrateCameras(capture, optionsOf(scene)));
   capture.nominal->depth_units_per_m = 1000.0;  // it is 8000
   expectRefusal(
-      capture, optionsOf(scene), ErrorCode::DepthUnitImplausible, "\"depth_scale\" of camera.json");
+      capture, optionsOf(scene), ErrorCode::CalibrationFailed, "\"depth_scale\" of camera.json");
 }
 
 TEST(CalibrationWarns, WhereTheBoardNeverWas) {
