@@ -1,11 +1,13 @@
 #include "measurement/report/front_page.h"
 
-#include "measurement/report/numbers.h"
+#include "measurement/report/changes.h"
+#include "measurement/report/key_values.h"
 #include "measurement/report/page_parts.h"
+#include "measurement/report/phrases.h"
 #include "measurement/report/pictures.h"
 #include "measurement/report/rows.h"
+#include "measurement/report/sentence.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <algorithm>
@@ -13,38 +15,25 @@
 namespace tarsus {
 namespace {
 
-class Words {
-  Q_DECLARE_TR_FUNCTIONS(ReportFrontPage)
-};
-
-const QString& space() {
-  static const QString no_break = QStringLiteral(u"\u00A0");
-  return no_break;
+const QString& dot() {
+  static const QString middle_dot = QStringLiteral(u" \u00B7 ");
+  return middle_dot;
 }
 
-const MeasurementRow& rowNamed(const std::vector<MeasurementRow>& rows, const std::string& key) {
-  const auto found = std::find_if(
-      rows.begin(), rows.end(), [&](const MeasurementRow& row) { return row.key == key; });
-  TARSUS_REQUIRE(found != rows.end(), "the front page shows quantities of the table");
-  return *found;
-}
-
-/// Who, which wound, which scan. @return bottom [mm]
+/// A measurement alone: who, which wound, which scan. @return bottom [mm]
 double identity(PageCanvas& canvas, const ReportContent& content, double top_mm) {
-  canvas.text({page::kLeft, top_mm}, Words::tr("Wound"), type::kCaption.in(ink::kGrey));
+  const Speech& say = canvas.speech();
+  const TextStyle label = type::kCaption.in(ink::kGrey);
+  canvas.text({page::kLeft, top_mm}, say(phrase::kWound), label);
   const double height =
       canvas.paragraph({page::kLeft, top_mm + 3.6},
                        118.0,
                        {{QString::fromStdString(content.title_line), type::kWound}});
   const double right = page::kRight;
-  canvas.text(
-      {right, top_mm}, Words::tr("Report made"), type::kCaption.in(ink::kGrey), Qt::AlignRight);
-  canvas.text({right, top_mm + 3.6},
-              QString::fromStdString(dateText(content.created)),
-              type::kCell,
-              Qt::AlignRight);
+  canvas.text({right, top_mm}, say(phrase::kReportMade), label, Qt::AlignRight);
+  canvas.text({right, top_mm + 3.6}, say.dateTime(content.created), type::kCell, Qt::AlignRight);
   canvas.text({right, top_mm + 7.7},
-              Words::tr("Tarsus %1").arg(QString::fromStdString(content.version)),
+              say(phrase::kProgram, QString::fromStdString(content.version)),
               type::kCell,
               Qt::AlignRight);
   const double bottom = top_mm + 3.6 + std::max(height, 8.6);
@@ -52,101 +41,98 @@ double identity(PageCanvas& canvas, const ReportContent& content, double top_mm)
   return bottom + 2.4;
 }
 
-/// The style with the greatest size at which the text is no wider than the room.
-TextStyle fitted(const PageCanvas& canvas, const QString& text, TextStyle style, double room_mm) {
-  while (style.size_pt > 7.0 && canvas.widthOf(text, style) > room_mm) {
-    style.size_pt -= 0.5;
+/// "PATIENT, Paula · born 14 Mar 1958 · 68 y" and the identifier.
+std::vector<TextRun> patientRuns(const ReportRecord& record, const Speech& say) {
+  QString rest = dot() + say(phrase::kBorn, say.date(record.birth_date));
+  if (const auto days = daysBetween(record.birth_date, record.visit_time)) {
+    rest += dot() + say(phrase::kAge, QString::number(static_cast<int>(*days / 365.2425)));
   }
-  return style;
+  return {{say.entered(record.patient_name), type::kCell.asBold()},
+          {rest, type::kCell},
+          {QLatin1Char('\n') + say(phrase::kId, say.entered(record.patient_id)), type::kCell}};
 }
 
-/// Key value of one quantity in its cell, or why there is none. @return the width of its text [mm]
-double keyCell(PageCanvas& canvas, const MeasurementRow& row, const QRectF& cell) {
-  canvas.text(cell.topLeft(), row.name, type::kCell);
-  const TextStyle small{8, 10, false, ink::kBlack};
-  if (!row.reason.isEmpty()) {
-    const QString words = Words::tr("not measurable");
-    const TextStyle style = fitted(canvas, words, {13, 16, true, ink::kBlack}, cell.width());
-    canvas.text(cell.topLeft() + QPointF(0, 6.4), words, style);
-    canvas.paragraph(cell.topLeft() + QPointF(0, 12.6), cell.width(), {{row.reason, small}});
-    return canvas.widthOf(words, style);
+std::vector<TextRun> visitRuns(const ReportContent& content, const Speech& say) {
+  const ReportRecord& record = *content.record;
+  const int number = content.visits.empty() ? 1 : content.visits.back().number;
+  const int count = std::max<int>(number, static_cast<int>(content.visits.size()));
+  QString rest = dot() + say(phrase::kVisitOf, QString::number(number), QString::number(count));
+  if (content.visits.size() > 1) {
+    if (const auto days = daysBetween(content.visits.front().date, record.visit_time)) {
+      rest += dot() + say(phrase::kDay, QString::number(*days));
+    }
   }
-  const double unit_mm = canvas.widthOf(row.unit, type::kKeyUnit) + 1.4;
-  const TextStyle value = fitted(canvas, row.value, type::kKeyValue, cell.width() - unit_mm);
-  const double value_mm = canvas.widthOf(row.value, value);
-  const QPointF at = cell.topLeft() + QPointF(0, 3.6);
-  canvas.text(at, row.value, value.in(row.below_limit ? ink::kFaint : ink::kBlack));
-  const double unit_drop = 1.9 * value.size_pt / type::kKeyValue.size_pt;  // on the same baseline
-  canvas.text(at + QPointF(value_mm + 1.4, unit_drop), row.unit, type::kKeyUnit);
-  const QString interval = row.interval.isEmpty() ? Words::tr("no interval")
-                                                  : Words::tr("95 % interval %1").arg(row.interval);
-  canvas.paragraph(cell.topLeft() + QPointF(0, 14.6), cell.width(), {{interval, small}});
-  return value_mm + unit_mm;
+  const QString time = QString::fromStdString(record.visit_time).mid(11, 5);
+  const QString scanned = say(phrase::kScanned, time, say.entered(record.scanned_by));
+  return {{say.date(record.visit_time), type::kCell.asBold()},
+          {rest, type::kCell},
+          {QLatin1Char('\n') + scanned, type::kCell}};
 }
 
-double keyValues(PageCanvas& canvas, const std::vector<MeasurementRow>& rows, double top_mm) {
-  struct Cell {
-    const char* key;
-    double width_mm;
-  };
-  constexpr std::array kCells{Cell{"opening_area_mm2", 41.0},
-                              Cell{"volume_mm3", 41.0},
-                              Cell{"max_depth_mm", 37.0},
-                              Cell{"length_mm", 59.0}};
-  double tallest = 19.0;
-  for (const Cell& cell : kCells) {  // a long reason makes the row taller, never shorter
-    const MeasurementRow& row = rowNamed(rows, cell.key);
-    if (!row.reason.isEmpty()) {
-      tallest =
-          std::max(tallest,
-                   13.4 + canvas.paragraphHeight(cell.width_mm - 4.0,
-                                                 {{row.reason, {8, 10, false, ink::kBlack}}}));
-    }
+/// State, report and version at the right. @return bottom [mm]
+double stateColumn(PageCanvas& canvas, const ReportContent& content, double top_mm) {
+  const Speech& say = canvas.speech();
+  const ReportRecord& record = *content.record;
+  stateBadge(canvas, content, {page::kRight, top_mm});
+  const TextStyle style{8, 10, false, ink::kBlack};
+  canvas.text({page::kRight, top_mm + 5.2},
+              say(phrase::kReportId, say.entered(record.report_id)),
+              style,
+              Qt::AlignRight);
+  QString version = say(phrase::kVersion, QString::number(record.version));
+  if (!content.amendments.empty()) {
+    const auto count = static_cast<int>(content.amendments.size());
+    version += QLatin1Char(' ') + (count == 1 ? say(phrase::kOneAmendment)
+                                              : say(phrase::kAmendments, QString::number(count)));
   }
-  canvas.line({page::kLeft, top_mm}, {page::kRight, top_mm}, 0.25, ink::kBlack);
-  double x = page::kLeft;
-  for (const Cell& cell : kCells) {
-    const double inset = x > page::kLeft ? 3.0 : 0.0;
-    const QRectF box(x + inset, top_mm + 1.4, cell.width_mm - inset - 1.0, tallest);
-    const double used = keyCell(canvas, rowNamed(rows, cell.key), box);
-    canvas.frame(std::string("key ") + cell.key,
-                 {box.left(), box.top(), std::max(box.width(), used), box.height()});
-    x += cell.width_mm;
-    if (x < page::kRight - 1.0) {
-      canvas.line({x, top_mm}, {x, top_mm + tallest + 2.4}, 0.12, ink::kRule);
-    }
-  }
-  const double bottom = top_mm + tallest + 2.4;
-  canvas.line({page::kLeft, bottom}, {page::kRight, bottom}, 0.25, ink::kBlack);
-  return bottom + 3.0;
+  canvas.text({page::kRight, top_mm + 8.9}, version, style, Qt::AlignRight);
+  return top_mm + 12.4;
 }
 
-/// What was measured and how far to trust it, from a closed set of sentences.
-QString sentence(const ReportContent& content, const std::vector<MeasurementRow>& rows) {
-  QStringList missing;
-  for (const MeasurementRow& row : rows) {
-    if (!row.reason.isEmpty()) {
-      missing << row.name.toLower();
-    }
+double woundBlock(PageCanvas& canvas, const ReportContent& content, double top_mm) {
+  const Speech& say = canvas.speech();
+  const ReportRecord& record = *content.record;
+  canvas.text({page::kLeft, top_mm}, say(phrase::kWound), type::kCaption.in(ink::kGrey));
+  double y = top_mm + 3.4;
+  y += canvas.paragraph(
+      {page::kLeft, y}, page::kContentWidth, {{woundLine(content, say), type::kWound}});
+  QStringList facts;
+  if (!record.aetiology.empty()) {
+    facts << say.term(record.aetiology);
   }
-  QString text = Words::tr("Measured: %1 of %2 quantities.")
-                     .arg(static_cast<int>(rows.size()) - missing.size())
-                     .arg(static_cast<int>(rows.size()));
-  if (!missing.isEmpty()) {
-    text +=
-        QLatin1Char(' ') + Words::tr("Not measurable: %1.").arg(missing.join(QStringLiteral("; ")));
-  }
-  const MeasurementRow& mean = rowNamed(rows, "mean_depth_mm");
-  if (mean.reason.isEmpty() && *content.measurement.mean_depth_mm < 4.0) {
-    text += QLatin1Char(' ') +
-            Words::tr("Volume ÷ area is %1; under 4 mm volume is less precise than about 5 %.")
-                .arg(mean.value + space() + mean.unit);
-  }
-  return text;
+  facts << say(phrase::kOnset, say.date(record.onset));
+  const double half = 0.6 * page::kContentWidth;
+  const double left = canvas.paragraph({page::kLeft, y}, half, {{facts.join(dot()), type::kCell}});
+  const double right_room = page::kContentWidth - half - 4.0;
+  const std::vector<TextRun> clinic{{QString::fromStdString(record.clinic), type::kCell}};
+  const double clinic_width = canvas.widthOf(clinic.front().text, type::kCell);
+  const double x = page::kRight - std::min(right_room, clinic_width + 0.1);
+  const double right =
+      record.clinic.empty() ? 0.0 : canvas.paragraph({x, y}, page::kRight - x + 0.2, clinic);
+  return y + std::max(left, right);
+}
+
+/// The record: whose, which visit, which state. @return bottom [mm]
+double recordIdentity(PageCanvas& canvas, const ReportContent& content, double top_mm) {
+  constexpr double kVisitLeft = page::kLeft + 68.0;
+  const Speech& say = canvas.speech();
+  const TextStyle label = type::kCaption.in(ink::kGrey);
+  canvas.text({page::kLeft, top_mm}, say(phrase::kPatient), label);
+  canvas.text({kVisitLeft, top_mm}, say(phrase::kVisit), label);
+  const double text_top = top_mm + 3.4;
+  const double patient = canvas.paragraph(
+      {page::kLeft, text_top}, kVisitLeft - page::kLeft - 4.0, patientRuns(*content.record, say));
+  const double visit = canvas.paragraph({kVisitLeft, text_top}, 60.0, visitRuns(content, say));
+  const double state = stateColumn(canvas, content, top_mm);
+  const double y = std::max(text_top + std::max(patient, visit), state) + 2.0;
+  const double bottom = woundBlock(canvas, content, y);
+  canvas.frame("identity", {page::kLeft, top_mm, page::kContentWidth, bottom - top_mm});
+  return bottom + 2.4;
 }
 
 /// A model that must not be measured says so before any number is read. @return bottom [mm]
 double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_mm) {
+  const Speech& say = canvas.speech();
   QStringList reasons;
   for (const std::string& reason : content.refusal_reasons) {
     QString text = QString::fromStdString(reason);
@@ -156,11 +142,11 @@ double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_
     reasons << text;
   }
   const QString why =
-      reasons.isEmpty() ? Words::tr("no reason was recorded") : reasons.join(QStringLiteral("; "));
+      reasons.isEmpty() ? say(phrase::kNoReason) : reasons.join(QStringLiteral("; "));
   const std::vector<TextRun> runs{
-      {Words::tr("This scan is not fit for measurement:"), type::kWords.asBold()},
-      {QLatin1Char(' ') + why + QLatin1Char('.'), type::kWords},
-      {QLatin1Char(' ') + Words::tr("Do not use the numbers; scan again."), type::kWords.asBold()}};
+      {say(phrase::kUnfitScan) + say.colon(), type::kWords.asBold()},
+      {QLatin1Char(' ') + why + QLatin1Char('.') + QLatin1Char(' '), type::kWords},
+      {say(phrase::kScanAgain), type::kWords.asBold()}};
   const double height = canvas.paragraphHeight(page::kContentWidth - 6.0, runs) + 3.0;
   QPainterPath box;
   box.addRect(QRectF(page::kLeft, top_mm, page::kContentWidth, height));
@@ -173,15 +159,17 @@ double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_
 }  // namespace
 
 void frontPage(PageCanvas& canvas, const ReportContent& content) {
-  const std::vector<MeasurementRow> rows = measurementRows(content.measurement);
+  const std::vector<MeasurementRow> rows = measurementRows(content.measurement, canvas.speech());
   double y = pageHead(canvas, content);
-  y = identity(canvas, content, y);
+  y = content.record ? recordIdentity(canvas, content, y) : identity(canvas, content, y);
   if (!content.fit_for_measurement) {
     y = unfitNotice(canvas, content, y);
   }
-  y = keyValues(canvas, rows, y);
-  const double words = canvas.paragraph(
-      {page::kLeft, y}, page::kContentWidth, {{sentence(content, rows), type::kWords}});
+  y = keyValues(canvas, content, rows, y);
+  const double words =
+      canvas.paragraph({page::kLeft, y},
+                       page::kContentWidth,
+                       {{sentenceInWords(content, rows, canvas.speech()), type::kWords}});
   canvas.frame("sentence", {page::kLeft, y, page::kContentWidth, words});
   y += words + page::kSectionGap;
   const double foot_bottom = footMap(canvas, content, {page::kLeft, y});

@@ -50,6 +50,24 @@ QString withTiedUnits(QString text) {
   return text;
 }
 
+/// Chinese has no spaces: a line may break before and after each of its letters, but not before
+/// what closes or after what opens.
+bool isIdeograph(QChar letter) {
+  const ushort code = letter.unicode();
+  return (code >= 0x2E80 && code <= 0x9FFF) || (code >= 0xFF00 && code <= 0xFFEF);
+}
+
+bool closes(QChar letter) {
+  return QStringLiteral(u"\u3001\u3002\uFF0C\uFF0E\uFF1A\uFF1B\uFF09\uFF01\uFF1F\u201D,.;:)%")
+      .contains(letter);
+}
+
+bool opens(QChar letter) { return QStringLiteral(u"\uFF08\u201C(").contains(letter); }
+
+bool mayBreakBetween(QChar before, QChar after) {
+  return (isIdeograph(before) || isIdeograph(after)) && !closes(after) && !opens(before);
+}
+
 std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
   std::vector<Word> words;
   bool space = false;
@@ -70,6 +88,9 @@ std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
         space = true;
         line_break = line_break || letter == QLatin1Char('\n');
       } else {
+        if (!current.isEmpty() && mayBreakBetween(current.back(), letter)) {
+          flush();
+        }
         current += letter;
       }
     }
@@ -80,8 +101,9 @@ std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
 
 }  // namespace
 
-PageCanvas::PageCanvas(QPdfWriter& writer)
+PageCanvas::PageCanvas(QPdfWriter& writer, const Speech& speech)
     : writer_(writer),
+      speech_(speech),
       painter_(&writer),
       dots_per_mm_(writer.resolution() / kMmPerInch),
       fonts_(allowedFonts()) {
@@ -101,6 +123,8 @@ QFont PageCanvas::fontOf(const TextStyle& style) const {
                     QStringLiteral("Noto Sans CJK SC")});
   font.setPointSizeF(style.size_pt);
   font.setBold(style.bold);
+  font.setUnderline(style.underlined);
+  font.setStrikeOut(style.struck);
   font.setHintingPreference(QFont::PreferNoHinting);
   // Any spacing turns ligatures off, so that "fit" can be searched for and copied as it is spelt.
   font.setLetterSpacing(QFont::AbsoluteSpacing, 0.02);
@@ -244,6 +268,19 @@ void PageCanvas::image(const QRectF& box_mm, const ColorImage& image) {
 void PageCanvas::clip(const QRectF& box_mm) {
   painter_.save();
   painter_.setClipRect(QRectF(box_mm.topLeft() * dots_per_mm_, box_mm.size() * dots_per_mm_));
+}
+
+void PageCanvas::clip(const QPainterPath& path_mm) {
+  painter_.save();
+  QTransform dots_from_mm;
+  dots_from_mm.scale(dots_per_mm_, dots_per_mm_);
+  painter_.setClipPath(dots_from_mm.map(path_mm));
+}
+
+void PageCanvas::edge(const QRectF& box_mm, double width_mm, const QColor& color) {
+  QPainterPath box;
+  box.addRect(box_mm);
+  path(box, QPen(color, width_mm));
 }
 
 void PageCanvas::unclip() { painter_.restore(); }

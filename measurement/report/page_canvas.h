@@ -2,6 +2,7 @@
 
 #include "measurement/report/page_style.h"
 #include "measurement/report/report.h"
+#include "measurement/report/speech.h"
 #include "reconstruction/scene/image.h"
 
 #include <QPainter>
@@ -18,7 +19,9 @@ namespace tarsus {
 /// where the named frames stand.
 class PageCanvas {
  public:
-  explicit PageCanvas(QPdfWriter& writer);
+  PageCanvas(QPdfWriter& writer, const Speech& speech);
+
+  [[nodiscard]] const Speech& speech() const { return speech_; }
 
   void nextPage();
   [[nodiscard]] int page() const { return page_; }
@@ -44,9 +47,11 @@ class PageCanvas {
   void path(const QPainterPath& path_mm, const QPen& pen_mm, const QBrush& brush = Qt::NoBrush);
   void line(const QPointF& a_mm, const QPointF& b_mm, double width_mm, const QColor& color);
   void fill(const QRectF& box_mm, const QColor& color);
+  void edge(const QRectF& box_mm, double width_mm, const QColor& color);
   void image(const QRectF& box_mm, const ColorImage& image);
   /// Everything painted until `unclip` stays inside the box.
   void clip(const QRectF& box_mm);
+  void clip(const QPainterPath& path_mm);
   void unclip();
 
   void frame(std::string name, const QRectF& box_mm);
@@ -65,6 +70,7 @@ class PageCanvas {
                  bool paint);
 
   QPdfWriter& writer_;
+  Speech speech_;
   QPainter painter_;
   double dots_per_mm_;
   std::vector<QRawFont> fonts_;

@@ -1,43 +1,13 @@
 #include "measurement/report/page_parts.h"
 
-#include "measurement/report/numbers.h"
-
-#include <QCoreApplication>
+#include "measurement/report/phrases.h"
 
 namespace tarsus {
 namespace {
 
-class Words {
-  Q_DECLARE_TR_FUNCTIONS(ReportPage)
-};
-
-/// A word in a frame at the right end of the title line; dashed for what may still change.
-double badge(PageCanvas& canvas, double right_mm, double top_mm, const QString& text, bool dashed) {
-  const TextStyle style{7.5, 10, true, ink::kBlack};
-  const double width = canvas.widthOf(text, style) + 4.0;
-  const QRectF box(right_mm - width, top_mm, width, 4.4);
-  QPainterPath edge;
-  edge.addRect(box);
-  QPen pen(ink::kBlack, 0.3);
-  if (dashed) {
-    pen.setDashPattern({3.0, 2.4});
-  }
-  canvas.path(edge, pen);
-  canvas.text({box.center().x(), box.top() + 0.45}, text, style, Qt::AlignHCenter);
-  return box.left() - 2.0;
-}
-
-double badges(PageCanvas& canvas, const ReportContent& content, double top_mm) {
-  double right = badge(canvas, page::kRight, top_mm, Words::tr("DRAFT · not signed"), true);
-  if (!content.fit_for_measurement) {
-    right = badge(canvas, right, top_mm, Words::tr("NOT FIT FOR MEASUREMENT"), false);
-  }
-  return right;
-}
-
 QString shortHash(const std::string& hash) {
   if (hash.size() < 24) {
-    return QString::fromStdString(hash.empty() ? "not recorded" : hash);
+    return QString::fromStdString(hash);
   }
   const QString text = QString::fromStdString(hash);
   const int n = text.size();
@@ -57,6 +27,43 @@ QString elided(const PageCanvas& canvas, QString text, const TextStyle& style, d
 
 }  // namespace
 
+bool isSigned(const ReportContent& content) {
+  return content.record && content.record->state != ReportState::Draft &&
+         !content.record_sha256.empty();
+}
+
+double badge(PageCanvas& canvas, const QPointF& right_top_mm, const QString& text, Badge kind) {
+  const TextStyle style{7.5, 10, true, ink::kBlack};
+  const double tick = kind == Badge::Ticked ? 3.6 : 0.0;
+  const double width = canvas.widthOf(text, style) + 4.0 + tick;
+  const QRectF box(right_top_mm.x() - width, right_top_mm.y(), width, 4.4);
+  QPainterPath edge;
+  edge.addRect(box);
+  QPen pen(ink::kBlack, 0.3);
+  if (kind == Badge::Dashed) {
+    pen.setDashPattern({3.0, 2.4});
+  }
+  canvas.path(edge, pen);
+  if (kind == Badge::Ticked) {
+    QPainterPath mark({box.left() + 1.7, box.center().y() + 0.2});
+    mark.lineTo(box.left() + 2.7, box.center().y() + 1.1);
+    mark.lineTo(box.left() + 4.4, box.center().y() - 1.1);
+    canvas.path(mark, QPen(ink::kBlack, 0.4));
+  }
+  canvas.text({box.center().x() + 0.5 * tick, box.top() + 0.45}, text, style, Qt::AlignHCenter);
+  return box.left() - 2.0;
+}
+
+double stateBadge(PageCanvas& canvas, const ReportContent& content, const QPointF& right_top_mm) {
+  const Speech& say = canvas.speech();
+  if (!isSigned(content)) {
+    return badge(canvas, right_top_mm, say(phrase::kDraft), Badge::Dashed);
+  }
+  const bool reviewed = content.record->state == ReportState::Reviewed;
+  return badge(
+      canvas, right_top_mm, say(reviewed ? phrase::kReviewed : phrase::kSigned), Badge::Ticked);
+}
+
 double sectionHead(PageCanvas& canvas,
                    const QPointF& top_left_mm,
                    int number,
@@ -66,52 +73,116 @@ double sectionHead(PageCanvas& canvas,
   return 5.2;
 }
 
+namespace {
+
+/// What stands at the right end of the title line. @return where there is room left of it [mm]
+double headBadges(PageCanvas& canvas, const ReportContent& content, double top_mm) {
+  const Speech& say = canvas.speech();
+  double right = page::kRight;
+  if (!content.record || (canvas.page() > 1 && !isSigned(content))) {
+    right = stateBadge(canvas, content, {right, top_mm});
+  }
+  if (content.record && content.record->invented) {
+    right = badge(canvas, {right, top_mm}, say(phrase::kInvented), Badge::Plain);
+  }
+  if (!content.fit_for_measurement) {
+    right = badge(canvas, {right, top_mm}, say(phrase::kUnfitBadge), Badge::Plain);
+  }
+  return right;
+}
+
+/// Whose page this is: a page that falls out of a folder still says it.
+QString runningLine(const ReportContent& content, const Speech& say) {
+  if (!content.record) {
+    return QString::fromStdString(content.title_line);
+  }
+  const ReportRecord& record = *content.record;
+  const int visit = content.visits.empty() ? 1 : content.visits.back().number;
+  return QStringList{
+      say.entered(record.patient_name),
+      say.entered(record.patient_id),
+      woundLine(content, say),
+      say(phrase::kVisitPicture, QString::number(visit), say.date(record.visit_time))}
+      .join(QStringLiteral(" \u00B7 "));
+}
+
+}  // namespace
+
+QString woundLine(const ReportContent& content, const Speech& say) {
+  const ReportRecord& record = *content.record;
+  const Phrase& side = record.side == FootSide::Left    ? phrase::kLeftFoot
+                       : record.side == FootSide::Right ? phrase::kRightFoot
+                                                        : phrase::kSideNotRecorded;
+  QStringList place{say(side)};
+  for (const std::string& word : {record.surface, record.site}) {
+    if (!word.empty()) {
+      place << say.term(word);
+    }
+  }
+  const QString comma =
+      say.language() == ReportLanguage::Chinese ? QString(QChar(0xFF0C)) : QStringLiteral(", ");
+  return say(phrase::kWoundName, QString::number(record.wound_number)) +
+         QStringLiteral(" \u00B7 ") + place.join(comma);
+}
+
 double pageHead(PageCanvas& canvas, const ReportContent& content) {
+  const Speech& say = canvas.speech();
   const double top = page::kTop;
-  const double badge_left = badges(canvas, content, top + 0.6);
-  const QString title = QString::fromStdString(content.title_line);
+  const double badge_left = headBadges(canvas, content, top + 0.6);
   if (canvas.page() == 1) {
-    canvas.text({page::kLeft, top}, Words::tr("Tarsus"), type::kTitle.in(ink::kTeal));
-    const double x = page::kLeft + canvas.widthOf(Words::tr("Tarsus"), type::kTitle) + 3.5;
-    canvas.text({x, top}, Words::tr("Wound report"), type::kTitle);
+    canvas.text({page::kLeft, top}, say(phrase::kTarsus), type::kTitle.in(ink::kTeal));
+    const double x = page::kLeft + canvas.widthOf(say(phrase::kTarsus), type::kTitle) + 3.5;
+    canvas.text({x, top}, say(phrase::kWoundReport), type::kTitle);
     canvas.line({page::kLeft, top + 6.6}, {page::kRight, top + 6.6}, 0.35, ink::kBlack);
   } else {
     // The whole line stands on page 1; here it only says whose page this is.
     const double room = badge_left - page::kLeft - 2.0;
     canvas.text({page::kLeft, top + 0.6},
-                elided(canvas, title, type::kCell.asBold(), room),
+                elided(canvas, runningLine(content, say), type::kCell.asBold(), room),
                 type::kCell.asBold());
     canvas.line({page::kLeft, top + 5.8}, {page::kRight, top + 5.8}, 0.35, ink::kBlack);
   }
   canvas.frame("head", {page::kLeft, top, page::kContentWidth, canvas.page() == 1 ? 6.6 : 5.8});
-  for (int i = 0; i < 4; ++i) {  // beside the content, so that no copy of a page loses it
-    canvas.textUpwards(
-        {203.0, 50.0 + i * 66.0}, Words::tr("DRAFT · not signed"), type::kSmall.asBold());
+  for (int i = 0; i < 4 && !isSigned(content); ++i) {
+    // Beside the content, so that no copy of a page loses it.
+    canvas.textUpwards({203.0, 50.0 + i * 66.0}, say(phrase::kDraft), type::kSmall.asBold());
   }
   return top + (canvas.page() == 1 ? 9.2 : 9.0);
 }
 
-QString researchUseText() {
-  return Words::tr(
-      "Research software. Not a medical device; not cleared by any authority; must not be the sole "
-      "basis of a clinical decision. Accuracy shown is from the listed phantoms.");
-}
-
 void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages) {
+  const Speech& say = canvas.speech();
   const double top = page::kFooterTop;
   canvas.line({page::kLeft, top}, {page::kRight, top}, 0.18, ink::kGrey);
-  const double height = canvas.paragraph(
-      {page::kLeft, top + 1.0}, 100.0, {{researchUseText(), type::kSmall.in(ink::kBlack)}});
-  const QString facts =
-      Words::tr("model SHA-256 %1 · Tarsus %2 · created %3 · no record hash before signing")
-          .arg(shortHash(content.model_sha256),
-               QString::fromStdString(content.version),
-               QString::fromStdString(dateText(content.created)));
-  canvas.text({page::kLeft, top + 1.2 + height}, facts, type::kSmall);
-  canvas.text({page::kRight, top + 1.1 + height},
-              Words::tr("page %1/%2").arg(canvas.page()).arg(pages),
-              {7.5, 9, true, ink::kBlack},
-              Qt::AlignRight);
+  // As narrow as two lines allow, wider where a language needs it.
+  const std::vector<TextRun> use{{say(phrase::kResearchUse), type::kSmall.in(ink::kBlack)}};
+  double width = 100.0;
+  while (width < page::kContentWidth && canvas.paragraphHeight(width, use) > 6.6) {
+    width += 2.0;
+  }
+  const double height = canvas.paragraph({page::kLeft, top + 1.0}, width, use);
+  QStringList facts;
+  if (content.record) {
+    facts << say.entered(content.record->report_id)
+          << say(phrase::kVersion, QString::number(content.record->version));
+  }
+  if (isSigned(content)) {
+    facts << say(phrase::kRecordHash, shortHash(content.record_sha256));
+  } else {
+    facts << say(phrase::kModelHash,
+                 content.model_sha256.empty() ? say(phrase::kNotRecorded)
+                                              : shortHash(content.model_sha256))
+          << say(phrase::kNoRecordHash);
+  }
+  facts << say(phrase::kProgram, QString::fromStdString(content.version))
+        << say(phrase::kCreated, say.dateTime(content.created));
+  const QString number = say(phrase::kPage, QString::number(canvas.page()), QString::number(pages));
+  const TextStyle number_style{7.5, 9, true, ink::kBlack};
+  const double room = page::kContentWidth - canvas.widthOf(number, number_style) - 3.0;
+  canvas.text({page::kLeft, top + 1.2 + height},
+              elided(canvas, facts.join(QStringLiteral(" \u00B7 ")), type::kSmall, room),
+              type::kSmall);
+  canvas.text({page::kRight, top + 1.1 + height}, number, number_style, Qt::AlignRight);
   canvas.frame("foot", {page::kLeft, top, page::kContentWidth, height + 4.4});
 }
 
@@ -123,7 +194,7 @@ void scaleBar(PageCanvas& canvas, const QRectF& picture_mm, double print_scale) 
   const double x = plate.left() + 1.2;
   canvas.text({plate.center().x(), plate.top() - 0.1},
               QStringLiteral(u"1\u00A0cm"),
-              {7, 9, false, ink::kBlack},
+              type::kSmall.in(ink::kBlack),
               Qt::AlignHCenter);
   // Edges lie inside the length: the bar's outer ends are 1 cm of skin apart.
   canvas.fill({x, y, length, 1.0}, ink::kBlack);

@@ -17,7 +17,14 @@ void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages);
 /// 5 mm black and 5 mm white with "1 cm", true to the picture's scale, at its lower left.
 void scaleBar(PageCanvas& canvas, const QRectF& picture_mm, double print_scale);
 
-/// What the product is and is not, as every page says it.
-[[nodiscard]] QString researchUseText();
+enum class Badge { Plain, Dashed, Ticked };
+/// A word in a frame; dashed for what may still change. @return where there is room left of it [mm]
+double badge(PageCanvas& canvas, const QPointF& right_top_mm, const QString& text, Badge kind);
+
+/// "SIGNED" or "DRAFT"; the former never without the record's hash.
+double stateBadge(PageCanvas& canvas, const ReportContent& content, const QPointF& right_top_mm);
+
+/// "W1 · right foot, plantar, metatarsal head 2"; needs a record.
+[[nodiscard]] QString woundLine(const ReportContent& content, const Speech& say);
 
 }  // namespace tarsus

@@ -28,6 +28,9 @@ inline const QColor kFill{0xF1, 0xF3, 0xF5};
 inline const QColor kTeal{0x0B, 0x7A, 0x75};
 inline const QColor kOutline{0x00, 0xB8, 0xD9};
 inline const QColor kHalo{0x06, 0x14, 0x1C};
+inline const QColor kGrid{0xD5, 0xDB, 0xE1};
+inline const QColor kAmber{0xB8, 0x6E, 0x14};  ///< published marks alone
+inline const QColor kToday{0x87, 0x96, 0xA8};  ///< fill of today's outline and of granulation
 }  // namespace ink
 
 /// Noto Sans at a size and line height in points.
@@ -36,9 +39,29 @@ struct TextStyle {
   double line_pt = 11.5;
   bool bold = false;
   QColor color = ink::kBlack;
+  bool underlined = false;
+  bool struck = false;  ///< an earlier value that an amendment replaced
 
-  [[nodiscard]] TextStyle in(const QColor& other) const { return {size_pt, line_pt, bold, other}; }
-  [[nodiscard]] TextStyle asBold() const { return {size_pt, line_pt, true, color}; }
+  [[nodiscard]] TextStyle in(const QColor& other) const {
+    TextStyle style = *this;
+    style.color = other;
+    return style;
+  }
+  [[nodiscard]] TextStyle asBold() const {
+    TextStyle style = *this;
+    style.bold = true;
+    return style;
+  }
+  [[nodiscard]] TextStyle asUnderlined() const {
+    TextStyle style = *this;
+    style.underlined = true;
+    return style;
+  }
+  [[nodiscard]] TextStyle asStruck() const {
+    TextStyle style = *this;
+    style.struck = true;
+    return style;
+  }
 };
 
 struct TextRun {

@@ -1,25 +1,22 @@
 #include "measurement/report/report.h"
 
+#include "measurement/report/changes.h"
 #include "measurement/report/front_page.h"
 #include "measurement/report/page_canvas.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/pdf_bytes.h"
-#include "measurement/report/table_page.h"
+#include "measurement/report/phrases.h"
+#include "measurement/report/sections.h"
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/base/require.h"
 
 #include <QBuffer>
-#include <QCoreApplication>
 #include <QGuiApplication>
 #include <QHash>
 #include <QPageLayout>
 
 namespace tarsus {
 namespace {
-
-class Words {
-  Q_DECLARE_TR_FUNCTIONS(Report)
-};
 
 /// Qt's hash tables order a PDF's fonts and objects; a fixed seed fixes that order.
 void fixHashOrder() {
@@ -30,14 +27,52 @@ void fixHashOrder() {
 #endif
 }
 
-struct Printed {
+struct PrintedPdf {
   QByteArray pdf;
   std::vector<ReportFrame> frames;
   int pages = 0;
 };
 
-Printed print(const ReportContent& content, int pages) {
-  Printed result;
+void sections(PageCanvas& canvas, const ReportContent& content, int pages) {
+  const std::function<double()> turn_page = [&] {
+    pageFoot(canvas, content, pages);
+    canvas.nextPage();
+    return pageHead(canvas, content);
+  };
+  Flow flow{canvas, content, turn_page(), turn_page};
+  measurementSection(flow);
+  if (content.record) {
+    findingsSection(flow);
+    scoreSection(flow);
+    if (previousVisit(content) != nullptr) {
+      flow.y = turn_page();
+      trendSection(flow);
+      comparisonSection(flow);
+    }
+    flow.y = turn_page();
+    notesSection(flow);
+  }
+  qualitySection(flow);
+  if (content.record) {
+    signatureSection(flow);
+  }
+  aboutSection(flow);
+  pageFoot(canvas, content, pages);
+}
+
+/// "Wound report TS-0007-W1-V4 v2": never the patient's name, which file managers would show.
+QString documentTitle(const ReportContent& content, const Speech& say) {
+  QString title = say(phrase::kWoundReport);
+  if (content.record) {
+    title += QLatin1Char(' ') + QString::fromStdString(content.record->report_id) +
+             QStringLiteral(" v") + QString::number(content.record->version);
+  }
+  return title;
+}
+
+PrintedPdf print(const ReportContent& content, int pages) {
+  const Speech say(content.language);
+  PrintedPdf result;
   QBuffer buffer(&result.pdf);
   buffer.open(QIODevice::WriteOnly);
   {
@@ -45,31 +80,24 @@ Printed print(const ReportContent& content, int pages) {
     writer.setPdfVersion(QPagedPaintDevice::PdfVersion_A1b);
     writer.setResolution(1200);
     writer.setPageLayout(QPageLayout(QPageSize(QPageSize::A4), QPageLayout::Portrait, QMarginsF()));
-    const QString title = Words::tr("Wound report");
-    const QString creator = Words::tr("Tarsus %1").arg(QString::fromStdString(content.version));
+    const QString title = documentTitle(content, say);
+    const QString creator = say(phrase::kProgram, QString::fromStdString(content.version));
     writer.setTitle(title);
     writer.setCreator(creator);
     writer.setDocumentXmpMetadata(xmpMetadata(title, creator, content.created));
-    PageCanvas canvas(writer);
+    PageCanvas canvas(writer, say);
     frontPage(canvas, content);
-    const auto turn_page = [&] {
-      pageFoot(canvas, content, pages);
-      canvas.nextPage();
-      return pageHead(canvas, content);
-    };
-    const double top = turn_page();
-    tablePage(canvas, content, top, turn_page);
-    pageFoot(canvas, content, pages);
+    sections(canvas, content, pages);
     result.frames = canvas.frames();
     result.pages = canvas.page();
   }
   return result;
 }
 
-/// Printed twice: the first time to learn how many pages there are.
-Expected<Printed> printWhole(const ReportContent& content) {
+/// PrintedPdf twice: the first time to learn how many pages there are.
+Expected<PrintedPdf> printWhole(const ReportContent& content) {
   TARSUS_REQUIRE(qGuiApp != nullptr, "a report needs a QGuiApplication for its fonts");
-  TARSUS_REQUIRE(!content.title_line.empty(), "a report says whose it is");
+  TARSUS_REQUIRE(content.record || !content.title_line.empty(), "a report says whose it is");
   fixHashOrder();
   if (const Expected<void> fonts = checkFonts(); !fonts) {
     return tl::unexpected(fonts.error());
@@ -80,7 +108,7 @@ Expected<Printed> printWhole(const ReportContent& content) {
 }  // namespace
 
 Expected<void> writeReport(const std::filesystem::path& path, const ReportContent& content) {
-  const Expected<Printed> printed = printWhole(content);
+  const Expected<PrintedPdf> printed = printWhole(content);
   if (!printed) {
     return tl::unexpected(printed.error());
   }
@@ -90,7 +118,7 @@ Expected<void> writeReport(const std::filesystem::path& path, const ReportConten
 }
 
 Expected<std::vector<ReportFrame>> layoutReport(const ReportContent& content) {
-  return printWhole(content).map([](Printed printed) { return std::move(printed.frames); });
+  return printWhole(content).map([](PrintedPdf printed) { return std::move(printed.frames); });
 }
 
 }  // namespace tarsus

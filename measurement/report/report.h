@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measurement/report/visit_content.h"
 #include "measurement/wound/measure.h"
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/image.h"
@@ -49,7 +50,28 @@ struct ReportContent {
   std::string version;
   std::string model_sha256;
   std::string created;  ///< ISO 8601 UTC, from the caller: the same content gives the same bytes
+  /// Bed that no depth ray reached, as triangles of the close view: hatched.
+  std::vector<std::array<Eigen::Vector2d, 3>> unseen_px;
+
+  // What a record adds. Without one, the draft of a single measurement is printed.
+  ReportLanguage language = ReportLanguage::English;
+  std::optional<ReportRecord> record;
+  std::vector<ReportVisit> visits;  ///< oldest first, this visit last; empty: as if the first
+  std::vector<ReportEvent> events;  ///< in the order of time
+  std::optional<ReportComparison> comparison;
+  std::string why_no_comparison;  ///< one sentence, where there is an earlier visit but no result
+  ReportFindings findings;
+  std::vector<ScoreResult> scores;
+  ReportText notes;
+  ReportText plan;
+  std::vector<ReportSignature> signatures;
+  std::vector<ReportAmendment> amendments;
+  std::vector<ReportFile> files;
+  std::string record_sha256;  ///< of what was signed; empty before: then no page says "signed"
 };
+
+/// Whether pages may say "signed": the record is, and its hash is there to prove which.
+[[nodiscard]] bool isSigned(const ReportContent& content);
 
 /// Where something stands on a page, for tests of the layout.
 struct ReportFrame {
@@ -61,7 +83,8 @@ struct ReportFrame {
   double height_mm = 0.0;
 };
 
-/// Writes the two-page A4 report (more pages only where warnings do not fit: a text is never cut).
+/// Writes the A4 report: two pages for a measurement alone, up to four with its record (more only
+/// where texts do not fit: a text is never cut).
 /// The same content gives the same bytes. Needs a QGuiApplication (offscreen is enough).
 /// Source: page, type, tables, numbers and pictures follow the print design (README.md).
 /// @errors FontMissing, FileUnwritable, DiskFull

@@ -1,18 +1,15 @@
 #include "measurement/report/rows.h"
 
 #include "measurement/report/numbers.h"
-
-#include <QCoreApplication>
+#include "measurement/report/phrases.h"
+#include "reconstruction/base/require.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tarsus {
 namespace {
-
-class Words {
-  Q_DECLARE_TR_FUNCTIONS(ReportRows)
-};
 
 constexpr double kCm2PerMm2 = 0.01;
 constexpr double kMlPerMm3 = 0.001;
@@ -42,12 +39,12 @@ double factorOf(Printed kind) {
   return 1.0;
 }
 
-QString unitOf(Printed kind) {
+QString unitOf(Printed kind, const Speech& say) {
   switch (kind) {
     case Printed::AreaCm2:
       return QStringLiteral(u"cm\u00B2");
     case Printed::VolumeMl:
-      return QStringLiteral("mL");
+      return say.millilitres();
     case Printed::Percent:
       return {};  // stands with the value
     case Printed::LengthMm:
@@ -71,53 +68,58 @@ int decimalsOf(const WoundMeasurement& m, const std::string& key, Printed kind) 
   return printedDecimals(kind, 0.5 * (interval->high - interval->low) * factorOf(kind));
 }
 
-QString reasonOf(const WoundMeasurement& m, const std::string& key, bool has_value) {
+QString reasonOf(const WoundMeasurement& m,
+                 const std::string& key,
+                 bool has_value,
+                 const Speech& say) {
   const auto found = m.not_measurable.find(key);
   if (found != m.not_measurable.end()) {
     return QString::fromStdString(found->second);
   }
-  return has_value ? QString() : Words::tr("no reason was recorded");
+  return has_value ? QString() : say(phrase::kNoReason);
 }
 
-MeasurementRow rowOf(const WoundMeasurement& m, const Entry& entry) {
+MeasurementRow rowOf(const WoundMeasurement& m, const Entry& entry, const Speech& say) {
   MeasurementRow row;
   row.key = entry.key;
+  row.keys = {entry.key};
+  row.kind = entry.kind;
+  row.factor = factorOf(entry.kind);
+  row.decimals = std::min(entry.most_decimals, decimalsOf(m, entry.key, entry.kind));
   row.name = entry.name;
   row.method = entry.method;
-  row.unit = unitOf(entry.kind);
+  row.unit = unitOf(entry.kind, say);
   const bool finite = entry.value && std::isfinite(*entry.value);
-  row.reason = reasonOf(m, entry.key, finite);
+  row.reason = reasonOf(m, entry.key, finite, say);
   if (!row.reason.isEmpty()) {
     return row;
   }
-  const int decimals = std::min(entry.most_decimals, decimalsOf(m, entry.key, entry.kind));
-  const double factor = factorOf(entry.kind);
-  const std::string printed = fixedText(*entry.value * factor, decimals);
+  const QString printed = say.number(*entry.value * row.factor, row.decimals);
   // A quantity that may be too small to tell from none never reads as a bare 0.
-  if (entry.kind == Printed::VolumeMl && printed == fixedText(0.0, decimals)) {
+  if (entry.kind == Printed::VolumeMl && printed == say.number(0.0, row.decimals)) {
     row.below_limit = true;
-    row.value = QStringLiteral("< ") +
-                QString::fromStdString(fixedText(std::pow(10.0, -decimals), decimals));
+    row.value = QStringLiteral("< ") + say.number(std::pow(10.0, -row.decimals), row.decimals);
     return row;
   }
-  row.value = QString::fromStdString(printed);
+  row.value = printed;
   if (entry.kind == Printed::Percent) {
-    row.value += QStringLiteral(u"\u00A0%");
-    row.unit = Words::tr("of the bed");
+    row.value = say.percent(printed);
+    row.unit = say(phrase::kOfTheBed);
   }
   if (const Interval* interval = intervalOf(m, entry.key)) {
-    row.interval = QString::fromStdString(intervalText(*interval, factor, decimals));
+    row.interval = say.interval(*interval, row.factor, row.decimals);
   }
   return row;
 }
 
 /// Length and width share a line and their decimals: those of the less certain of the two.
-MeasurementRow pairRow(const WoundMeasurement& m, Entry length, Entry width) {
+MeasurementRow pairRow(const WoundMeasurement& m, Entry length, Entry width, const Speech& say) {
   length.most_decimals =
       std::min(decimalsOf(m, length.key, length.kind), decimalsOf(m, width.key, width.kind));
   width.most_decimals = length.most_decimals;
-  MeasurementRow first = rowOf(m, length);
-  const MeasurementRow second = rowOf(m, width);
+  MeasurementRow first = rowOf(m, length, say);
+  first.keys.push_back(width.key);
+  const MeasurementRow second = rowOf(m, width, say);
   if (!first.reason.isEmpty() || !second.reason.isEmpty()) {
     first.value.clear();
     first.interval.clear();
@@ -134,103 +136,153 @@ MeasurementRow pairRow(const WoundMeasurement& m, Entry length, Entry width) {
   return first;
 }
 
-void appendAreas(std::vector<MeasurementRow>& rows, const WoundMeasurement& m) {
+void appendAreas(std::vector<MeasurementRow>& rows, const WoundMeasurement& m, const Speech& say) {
   rows.push_back(rowOf(m,
                        {"opening_area_mm2",
-                        Words::tr("Area, opening"),
-                        Words::tr("reference skin inside the outline"),
+                        say(phrase::kArea),
+                        say(phrase::kAreaHow),
                         Printed::AreaCm2,
-                        m.opening_area_mm2}));
+                        m.opening_area_mm2},
+                       say));
   rows.back().primary = true;
   rows.push_back(rowOf(m,
                        {"bed_area_mm2",
-                        Words::tr("Area, bed"),
-                        Words::tr("surface of the bed inside the outline"),
+                        say(phrase::kBedArea),
+                        say(phrase::kBedAreaHow),
                         Printed::AreaCm2,
-                        m.bed_area_mm2}));
+                        m.bed_area_mm2},
+                       say));
   rows.push_back(rowOf(m,
                        {"projected_area_mm2",
-                        Words::tr("Area, projected"),
-                        Words::tr("best-fit plane, as a photograph gives"),
+                        say(phrase::kProjected),
+                        say(phrase::kProjectedHow),
                         Printed::AreaCm2,
-                        m.projected_area_mm2}));
+                        m.projected_area_mm2},
+                       say));
   rows.push_back(rowOf(m,
                        {"perimeter_mm",
-                        Words::tr("Perimeter"),
-                        Words::tr("along the surface"),
+                        say(phrase::kPerimeter),
+                        say(phrase::kPerimeterHow),
                         Printed::LengthMm,
-                        m.perimeter_mm}));
+                        m.perimeter_mm},
+                       say));
   rows.push_back(pairRow(m,
                          {"length_mm",
-                          Words::tr("Length × width"),
-                          Words::tr("greatest chord × greatest perpendicular chord"),
+                          say(phrase::kLengthWidth),
+                          say(phrase::kLengthWidthHow),
                           Printed::LengthMm,
                           m.length_mm},
-                         {"width_mm", {}, {}, Printed::LengthMm, m.width_mm}));
+                         {"width_mm", {}, {}, Printed::LengthMm, m.width_mm},
+                         say));
   rows.push_back(pairRow(m,
                          {"length_clock_mm",
-                          Words::tr("Length × width, clock"),
-                          Words::tr("heel–toe axis × perpendicular"),
+                          say(phrase::kClockLength),
+                          say(phrase::kClockLengthHow),
                           Printed::LengthMm,
                           m.length_clock_mm},
-                         {"width_clock_mm", {}, {}, Printed::LengthMm, m.width_clock_mm}));
+                         {"width_clock_mm", {}, {}, Printed::LengthMm, m.width_clock_mm},
+                         say));
   rows.back().ends_group = true;
 }
 
-void appendVolumes(std::vector<MeasurementRow>& rows, const WoundMeasurement& m) {
+void appendVolumes(std::vector<MeasurementRow>& rows,
+                   const WoundMeasurement& m,
+                   const Speech& say) {
   rows.push_back(rowOf(m,
                        {"volume_mm3",
-                        Words::tr("Volume below skin"),
-                        Words::tr("between bed and reference skin"),
+                        say(phrase::kVolume),
+                        say(phrase::kVolumeHow),
                         Printed::VolumeMl,
-                        m.volume_mm3}));
+                        m.volume_mm3},
+                       say));
   rows.back().primary = true;
   rows.push_back(rowOf(m,
                        {"volume_above_mm3",
-                        Words::tr("Volume above skin"),
-                        Words::tr("reported apart, never subtracted"),
+                        say(phrase::kVolumeAbove),
+                        say(phrase::kVolumeAboveHow),
                         Printed::VolumeMl,
-                        m.volume_above_mm3}));
+                        m.volume_above_mm3},
+                       say));
   rows.back().ends_group = true;
 }
 
-void appendDepths(std::vector<MeasurementRow>& rows, const WoundMeasurement& m) {
+void appendDepths(std::vector<MeasurementRow>& rows, const WoundMeasurement& m, const Speech& say) {
   rows.push_back(rowOf(m,
                        {"max_depth_mm",
-                        Words::tr("Depth, greatest"),
-                        Words::tr("along the normal of the reference skin"),
+                        say(phrase::kDepth),
+                        say(phrase::kDepthHow),
                         Printed::DepthMm,
-                        m.max_depth_mm}));
+                        m.max_depth_mm},
+                       say));
   rows.back().primary = true;
   rows.push_back(rowOf(m,
                        {"p99_depth_mm",
-                        Words::tr("Depth, 99th percentile"),
-                        Words::tr("robust to single points"),
+                        say(phrase::kDepth99),
+                        say(phrase::kDepth99How),
                         Printed::DepthMm,
-                        m.p99_depth_mm}));
+                        m.p99_depth_mm},
+                       say));
   rows.push_back(rowOf(m,
                        {"mean_depth_mm",
-                        Words::tr("Depth, mean"),
-                        Words::tr("volume below skin ÷ area, opening"),
+                        say(phrase::kDepthMean),
+                        say(phrase::kDepthMeanHow),
                         Printed::DepthMm,
-                        m.mean_depth_mm}));
+                        m.mean_depth_mm},
+                       say));
   rows.back().ends_group = true;
 }
 
 }  // namespace
 
-std::vector<MeasurementRow> measurementRows(const WoundMeasurement& measurement) {
+std::vector<MeasurementRow> measurementRows(const WoundMeasurement& measurement,
+                                            const Speech& say) {
   std::vector<MeasurementRow> rows;
-  appendAreas(rows, measurement);
-  appendVolumes(rows, measurement);
-  appendDepths(rows, measurement);
+  appendAreas(rows, measurement, say);
+  appendVolumes(rows, measurement, say);
+  appendDepths(rows, measurement, say);
   rows.push_back(rowOf(measurement,
                        {"unseen_bed_fraction",
-                        Words::tr("Bed not seen"),
-                        Words::tr("share of the bed that was filled; limit 10 %"),
+                        say(phrase::kBedUnseen),
+                        say(phrase::kBedUnseenHow),
                         Printed::Percent,
-                        measurement.unseen_bed_fraction}));
+                        measurement.unseen_bed_fraction},
+                       say));
   return rows;
+}
+
+std::optional<double> measuredValue(const WoundMeasurement& m, const std::string& key) {
+  const std::array<std::pair<const char*, const std::optional<double>*>, 14> values{
+      {{"opening_area_mm2", &m.opening_area_mm2},
+       {"bed_area_mm2", &m.bed_area_mm2},
+       {"projected_area_mm2", &m.projected_area_mm2},
+       {"perimeter_mm", &m.perimeter_mm},
+       {"volume_mm3", &m.volume_mm3},
+       {"volume_above_mm3", &m.volume_above_mm3},
+       {"mean_depth_mm", &m.mean_depth_mm},
+       {"max_depth_mm", &m.max_depth_mm},
+       {"p99_depth_mm", &m.p99_depth_mm},
+       {"length_mm", &m.length_mm},
+       {"width_mm", &m.width_mm},
+       {"length_clock_mm", &m.length_clock_mm},
+       {"width_clock_mm", &m.width_clock_mm},
+       {"unseen_bed_fraction", &m.unseen_bed_fraction}}};
+  const auto* found =
+      std::ranges::find_if(values, [&](const auto& entry) { return key == entry.first; });
+  TARSUS_REQUIRE(found != values.end(), "the table knows its quantities");
+  const std::optional<double>& value = *found->second;
+  return value && std::isfinite(*value) && !m.not_measurable.contains(key) ? value : std::nullopt;
+}
+
+std::optional<Interval> measuredInterval(const WoundMeasurement& m, const std::string& key) {
+  const Interval* interval = intervalOf(m, key);
+  return interval == nullptr ? std::nullopt : std::optional(*interval);
+}
+
+const MeasurementRow& rowNamed(const std::vector<MeasurementRow>& rows, const std::string& key) {
+  const auto found =
+      std::ranges::find_if(rows, [&](const MeasurementRow& row) { return row.key == key; });
+  TARSUS_REQUIRE(found != rows.end(), "the pages show quantities of the table");
+  return *found;
 }
 
 }  // namespace tarsus

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "measurement/report/numbers.h"
+#include "measurement/report/speech.h"
 #include "measurement/wound/measure.h"
 
 #include <QString>
@@ -20,10 +22,26 @@ struct MeasurementRow {
   bool primary = false;
   bool below_limit = false;  ///< smaller than the last printed digit: "< 0.01", in grey
   bool ends_group = false;
+  std::vector<std::string> keys;  ///< one name, or those of length and width
+  Printed kind = Printed::LengthMm;
+  int decimals = 0;
+  double factor = 1.0;  ///< printed = stored * factor
 };
 
 /// Every quantity of the report, in its fixed order. A value that `not_measurable` names is shown
 /// as its reason, also where a (filled) number exists.
-[[nodiscard]] std::vector<MeasurementRow> measurementRows(const WoundMeasurement& measurement);
+[[nodiscard]] std::vector<MeasurementRow> measurementRows(const WoundMeasurement& measurement,
+                                                          const Speech& say);
+
+/// The stored value by its name in measurement.json; empty where it is not measurable.
+[[nodiscard]] std::optional<double> measuredValue(const WoundMeasurement& measurement,
+                                                  const std::string& key);
+
+[[nodiscard]] std::optional<Interval> measuredInterval(const WoundMeasurement& measurement,
+                                                       const std::string& key);
+
+/// The row of a quantity that is always there.
+[[nodiscard]] const MeasurementRow& rowNamed(const std::vector<MeasurementRow>& rows,
+                                             const std::string& key);
 
 }  // namespace tarsus

@@ -1,18 +1,13 @@
 #include "measurement/report/numbers.h"
+#include "measurement/report/phrases.h"
 #include "measurement/report/pictures.h"
 #include "measurement/report/rows.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <cmath>
 
 namespace tarsus {
 namespace {
-
-class Words {
-  Q_DECLARE_TR_FUNCTIONS(ReportSection)
-};
 
 constexpr double kDrawingWidth = 128.0;
 constexpr double kGreatestHeight = 30.0;
@@ -112,8 +107,8 @@ void bar(PageCanvas& canvas, double right_mm, double y_mm, double scale) {
   canvas.fill({right_mm - 0.5 * length, y_mm + 0.2, 0.5 * length - 0.2, 0.4}, Qt::white);
 }
 
-QString depthWords(const ReportContent& content) {
-  for (const MeasurementRow& row : measurementRows(content.measurement)) {
+QString depthWords(const ReportContent& content, const Speech& say) {
+  for (const MeasurementRow& row : measurementRows(content.measurement, say)) {
     if (row.key == "max_depth_mm" && row.reason.isEmpty()) {
       return row.value + QStringLiteral(u"\u00A0") + row.unit;
     }
@@ -134,14 +129,14 @@ double scaleFor(double along_mm, double height_mm) {
 /// What the drawing means, at its right. @return bottom [mm]
 double note(PageCanvas& canvas, const ReportContent& content, double scale, double top_mm) {
   const double x = page::kLeft + kDrawingWidth + 5.0;
-  const QString ratio = QString::number(scale);
-  QString text = Words::tr(
-                     "%1 : 1 in both directions; not exaggerated. Levelled on the skin curve "
-                     "K–K′. Solid: wound bed and skin. Dashed: reference skin.")
-                     .arg(ratio);
+  const Speech& say = canvas.speech();
+  QString text = say(phrase::kSectionNote,
+                     say.number(scale,
+                                scale == std::floor(scale) ? 0
+                                : scale == 0.75            ? 2
+                                                           : 1));
   if (content.measurement.unseen_bed_fraction.value_or(0.0) > 0.0) {
-    text += QLatin1Char(' ') +
-            Words::tr("Part of the bed was not seen; there the true value may be larger.");
+    text += say.gap() + say(phrase::kUnseenLarger);
   }
   return top_mm + canvas.paragraph({x, top_mm}, page::kRight - x, {{text, type::kCaption}});
 }
@@ -150,9 +145,7 @@ double note(PageCanvas& canvas, const ReportContent& content, double scale, doub
 
 double sectionDrawing(PageCanvas& canvas, const ReportContent& content, double top_mm) {
   const SectionProfile& section = *content.section;
-  canvas.text({page::kLeft, top_mm},
-              Words::tr("Section A–A′ through the deepest point"),
-              type::kCaption.asBold());
+  canvas.text({page::kLeft, top_mm}, canvas.speech()(phrase::kSection), type::kCaption.asBold());
   double low = section.surface_mm.front().y();
   double high = low;
   for (const auto* line : {&section.surface_mm, &section.reference_mm}) {
@@ -180,7 +173,7 @@ double sectionDrawing(PageCanvas& canvas, const ReportContent& content, double t
   canvas.path(map.open(section.surface_mm),
               QPen(ink::kBlack, 0.65, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   marks(canvas, section, map);
-  depthArrow(canvas, section, map, depthWords(content));
+  depthArrow(canvas, section, map, depthWords(content, canvas.speech()));
   canvas.text({page::kLeft, drawing_top - 5.0}, QStringLiteral("A"), type::kCell.asBold());
   canvas.text({page::kLeft + kDrawingWidth, drawing_top - 5.0},
               QStringLiteral(u"A\u2032"),

@@ -1,0 +1,1 @@
+#include "measurement/report/report.h"

@@ -1,0 +1,187 @@
+#include "measurement/report/page_parts.h"
+#include "measurement/report/phrases.h"
+#include "measurement/report/sections.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tarsus {
+namespace {
+
+using Pairs = std::vector<std::pair<QString, QString>>;
+
+/// In groups of eight, so that it can be compared by eye and wraps.
+QString groupedHash(const std::string& hash, const Speech& say) {
+  if (hash.empty()) {
+    return say(phrase::kNotRecorded);
+  }
+  QString text = QString::fromStdString(hash);
+  for (int at = 8; at < text.size(); at += 9) {
+    text.insert(at, QLatin1Char(' '));
+  }
+  return text;
+}
+
+Pairs qualityPairs(const ReportContent& content, const Speech& say) {
+  Pairs pairs;
+  for (const auto& [name, value] : content.quality) {
+    pairs.emplace_back(say.term(name), QString::fromStdString(value));
+  }
+  pairs.emplace_back(say(phrase::kReferenceSkin), say.entered(content.measurement.method));
+  pairs.emplace_back(say(phrase::kFit4Measurement),
+                     say(content.fit_for_measurement ? phrase::kYes : phrase::kNo));
+  return pairs;
+}
+
+/// Two columns of names and values, filled row by row.
+void qualityTable(Flow& flow) {
+  constexpr double kColumn = 91.0;
+  constexpr double kValueAt = 35.0;
+  const Pairs pairs = qualityPairs(flow.content, flow.canvas.speech());
+  const double value_width = kColumn - kValueAt - 4.0;
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    double height = 0.0;
+    const std::size_t count = std::min<std::size_t>(2, pairs.size() - i);
+    for (std::size_t side = 0; side < count; ++side) {
+      const auto& [name, value] = pairs[i + side];
+      height = std::max({height,
+                         flow.canvas.paragraphHeight(value_width, {{value, type::kCell}}),
+                         flow.canvas.paragraphHeight(kValueAt - 2.0, {{name, type::kCell}})});
+    }
+    flow.need(height);
+    for (std::size_t side = 0; side < count; ++side) {
+      const auto& [name, value] = pairs[i + side];
+      const double x = page::kLeft + static_cast<double>(side) * kColumn;
+      flow.canvas.paragraph({x, flow.y}, kValueAt - 2.0, {{name, type::kCell.in(ink::kGrey)}});
+      flow.canvas.paragraph({x + kValueAt, flow.y}, value_width, {{value, type::kCell}});
+    }
+    flow.canvas.frame("quality " + std::to_string(i / 2),
+                      {page::kLeft, flow.y, page::kContentWidth, height});
+    flow.y += height + 0.5;
+  }
+}
+
+void warningsAndReasons(Flow& flow) {
+  const Speech& say = flow.canvas.speech();
+  int number = 0;
+  for (const std::string& reason : flow.content.refusal_reasons) {
+    paragraphOf(flow,
+                "refusal " + std::to_string(number++),
+                {{say(phrase::kUnfitReason) + say.colon(), type::kCell.asBold()},
+                 {QStringLiteral(" ") + QString::fromStdString(reason), type::kCell}});
+  }
+  for (const Warning& warning : flow.content.measurement.warnings) {
+    paragraphOf(flow,
+                "warning " + std::to_string(number++),
+                {{say(phrase::kNote), type::kCell.asBold()},
+                 {QLatin1Char(' ') + QString::fromStdString(warning.text), type::kCell}});
+  }
+  if (number == 0) {
+    paragraphOf(flow, "warnings", {{say(phrase::kNoWarnings), type::kCell}});
+  }
+}
+
+/// A text that may flow over pages, a line at a time: a clinician's words are never cut.
+/// @param text  what is left of it afterwards
+/// @return what fits the room
+QString fittingPart(PageCanvas& canvas, QString& text, double width_mm, double room_mm) {
+  const auto fits = [&](const QString& part) {
+    return canvas.paragraphHeight(width_mm, {{part, type::kWords}}) <= room_mm;
+  };
+  if (fits(text)) {
+    const QString whole = text;
+    text.clear();
+    return whole;
+  }
+  int low = 0;
+  int high = text.size();
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (fits(text.left(middle)) ? low : high) = middle;
+  }
+  const int space =
+      std::max(text.lastIndexOf(QLatin1Char(' '), low), text.lastIndexOf(QLatin1Char('\n'), low));
+  const int cut = space > 0 ? space : std::max(1, low);
+  const QString part = text.left(cut);
+  text = text.mid(cut).trimmed();
+  return part;
+}
+
+struct NoteColumn {
+  QString head;
+  QString rest;
+};
+
+NoteColumn noteColumn(const Phrase& name, const ReportText& text, const Speech& say) {
+  QStringList head{say(name)};
+  if (!text.who.empty()) {
+    head << QString::fromStdString(text.who);
+  }
+  if (!text.when.empty()) {
+    head << say.dateTime(text.when);
+  }
+  return {head.join(QStringLiteral(u" \u00B7 ")), say.entered(text.text)};
+}
+
+}  // namespace
+
+void notesSection(Flow& flow) {
+  const Speech& say = flow.canvas.speech();
+  constexpr double kColumn = 92.0;
+  constexpr double kWidth = 86.0;
+  flow.need(24.0);
+  flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 9, say(phrase::kNotesAndPlan));
+  std::array<NoteColumn, 2> columns{noteColumn(phrase::kNotes, flow.content.notes, say),
+                                    noteColumn(phrase::kPlan, flow.content.plan, say)};
+  for (int part = 0; part == 0 || !columns[0].rest.isEmpty() || !columns[1].rest.isEmpty();
+       ++part) {
+    if (part > 0) {
+      flow.y = flow.turn_page();
+    }
+    const double top = flow.y;
+    double height = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double x = page::kLeft + static_cast<double>(i) * kColumn;
+      flow.canvas.text({x, top}, columns[i].head, type::kCaption.in(ink::kGrey));
+      const double room = page::kContentBottom - top - 4.0;
+      const QString piece = fittingPart(flow.canvas, columns[i].rest, kWidth, room);
+      height =
+          std::max(height, flow.canvas.paragraph({x, top + 3.9}, kWidth, {{piece, type::kWords}}));
+    }
+    flow.canvas.frame("notes " + std::to_string(part),
+                      {page::kLeft, top, page::kContentWidth, height + 3.9});
+    flow.y = top + height + 3.9 + page::kSectionGap;
+  }
+}
+
+void qualitySection(Flow& flow) {
+  const Speech& say = flow.canvas.speech();
+  flow.need(20.0);
+  flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 10, say(phrase::kQuality));
+  qualityTable(flow);
+  const auto hashLine = [&](const char* name, const Phrase& label, const std::string& hash) {
+    paragraphOf(flow,
+                name,
+                {{say(label), type::kCaption.in(ink::kGrey)},
+                 {QLatin1Char(' ') + groupedHash(hash, say), type::kCaption}});
+  };
+  hashLine("model hash", phrase::kModelSha, flow.content.model_sha256);
+  if (isSigned(flow.content)) {
+    hashLine("record hash", phrase::kRecordSha, flow.content.record_sha256);
+  }
+  flow.y += 0.8;
+  paragraphOf(flow, "method", {{say(phrase::kMethodText), type::kCell}});
+  warningsAndReasons(flow);
+}
+
+void aboutSection(Flow& flow) {
+  const Speech& say = flow.canvas.speech();
+  flow.y += page::kSectionGap - 1.0;
+  flow.need(22.0);
+  flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 12, say(phrase::kWhatThisIs));
+  paragraphOf(flow,
+              "disclaimer",
+              {{say(phrase::kResearchUse) + say.gap() + say(phrase::kRecords), type::kCell}});
+}
+
+}  // namespace tarsus
