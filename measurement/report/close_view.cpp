@@ -162,26 +162,20 @@ ColorImage depthPicture(const TexturedMesh& foot,
                         const MeasuredWound& wound,
                         const ViewFrame& view,
                         double end_mm) {
-  const Eigen::Vector3f lift = (kOverSkin_mm * view.right.cross(view.up)).cast<float>();
-  TriangleMesh scene = foot.mesh;
-  scene.normals.clear();
-  std::vector<Rgb8> colors(scene.vertices.size(), kSkinGrey);
-  if (end_mm > 0.0 && wound.bed_depth_mm.size() == wound.bed.vertices.size()) {
-    const auto first = static_cast<int>(scene.vertices.size());
-    for (std::size_t i = 0; i < wound.bed.vertices.size(); ++i) {
-      scene.vertices.push_back(wound.bed.vertices[i] + lift);
-      colors.push_back(depthColor(static_cast<double>(wound.bed_depth_mm[i]), end_mm));
-    }
-    for (const Eigen::Vector3i& face : wound.bed.faces) {
-      scene.faces.emplace_back((face.array() + first).matrix());
-    }
-  }
   PictureOptions options;
   options.width_px = dots(kCloseSide_mm);
   options.height_px = options.width_px;
   options.shading = 0.15;
   options.background = kPaper;
-  return takePicture(scene, colors, view, options);
+  std::vector<Rgb8> colors;
+  TriangleMesh bed;
+  if (end_mm > 0.0 && wound.bed_depth_mm.size() == wound.bed.vertices.size()) {
+    bed = wound.bed;
+    for (const float depth : wound.bed_depth_mm) {
+      colors.push_back(depthColor(static_cast<double>(depth), end_mm));
+    }
+  }
+  return overlaidPicture(foot.mesh, bed, colors, view, options);
 }
 
 std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
@@ -209,6 +203,29 @@ void takeFoot(ReportContent& content,
   content.foot_outline_px = projected(wound.outline_mm, view, options);
 }
 
+/// Triangles of the bed, seen from the front, that were filled rather than measured.
+void takeUnseen(ReportContent& content,
+                const MeasuredWound& wound,
+                const ViewFrame& view,
+                const PictureOptions& options) {
+  if (wound.bed_unseen.size() != wound.bed.vertices.size()) {
+    return;
+  }
+  for (const Eigen::Vector3i& face : wound.bed.faces) {
+    float unseen = 0.0F;
+    std::array<Eigen::Vector2d, 3> triangle;
+    for (int k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(face[k]);
+      unseen += wound.bed_unseen[v];
+      triangle[static_cast<std::size_t>(k)] =
+          view.project(wound.bed.vertices[v].cast<double>(), options);
+    }
+    if (unseen > 1.5F) {  // more than half of its corners
+      content.unseen_px.push_back(triangle);
+    }
+  }
+}
+
 void takeDepth(ReportContent& content,
                const TexturedMesh& foot,
                const MeasuredWound& wound,
@@ -224,6 +241,7 @@ void takeDepth(ReportContent& content,
   const bool measurable = !wound.numbers.not_measurable.contains("max_depth_mm") && deepest > 0.0;
   content.depth_scale_end_mm = measurable ? depthScaleEnd(deepest) : 0.0;
   content.depth_map = depthPicture(foot, wound, view, content.depth_scale_end_mm);
+  takeUnseen(content, wound, view, options);
   if (!measurable || wound.bed_depth_mm.size() != wound.bed.vertices.size()) {
     return;
   }
@@ -240,6 +258,41 @@ void takeDepth(ReportContent& content,
 }
 
 }  // namespace
+
+CloseView closeViewOf(const TexturedMesh& foot,
+                      const MeasuredWound& wound,
+                      const std::optional<Landmarks>& landmarks) {
+  const Directions d = directionsOf(foot, wound, landmarks);
+  return {closeFrame(wound, d), d.oriented};
+}
+
+ColorImage overlaidPicture(const TriangleMesh& skin,
+                           const TriangleMesh& over,
+                           std::span<const Rgb8> colors,
+                           const ViewFrame& view,
+                           const PictureOptions& options) {
+  const Eigen::Vector3f lift = (kOverSkin_mm * view.right.cross(view.up)).cast<float>();
+  TriangleMesh scene = skin;
+  scene.normals.clear();
+  std::vector<Rgb8> all_colors(scene.vertices.size(), kSkinGrey);
+  const auto first = static_cast<int>(scene.vertices.size());
+  for (const Eigen::Vector3f& vertex : over.vertices) {
+    scene.vertices.push_back(vertex + lift);
+  }
+  all_colors.insert(all_colors.end(), colors.begin(), colors.end());
+  for (const Eigen::Vector3i& face : over.faces) {
+    scene.faces.emplace_back((face.array() + first).matrix());
+  }
+  return takePicture(scene, all_colors, view, options);
+}
+
+std::vector<Eigen::Vector2d> outlineForTrends(const ReportContent& content) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const Eigen::Vector2d& point : content.outline_px) {
+    outline.push_back(content.close_mm_per_px * point);
+  }
+  return outline;
+}
 
 ReportContent illustrate(const TexturedMesh& foot,
                          const MeasuredWound& wound,

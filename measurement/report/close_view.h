@@ -3,6 +3,9 @@
 #include "measurement/report/report.h"
 #include "measurement/wound/measure.h"
 #include "reconstruction/scene/mesh.h"
+#include "reconstruction/scene/mesh_picture.h"
+
+#include <span>
 
 namespace tarsus {
 
@@ -13,5 +16,24 @@ namespace tarsus {
 [[nodiscard]] ReportContent illustrate(const TexturedMesh& foot,
                                        const MeasuredWound& wound,
                                        const std::optional<Landmarks>& landmarks);
+
+/// How the close view of a wound looks at it.
+struct CloseView {
+  ViewFrame frame;  ///< its scale is that of the close view on page 1
+  bool oriented = false;
+};
+[[nodiscard]] CloseView closeViewOf(const TexturedMesh& foot,
+                                    const MeasuredWound& wound,
+                                    const std::optional<Landmarks>& landmarks);
+
+/// Grey skin with a coloured mesh, a part of the same surface, laid over it; square.
+[[nodiscard]] ColorImage overlaidPicture(const TriangleMesh& skin,
+                                         const TriangleMesh& over,
+                                         std::span<const Rgb8> colors,
+                                         const ViewFrame& view,
+                                         const PictureOptions& options);
+
+/// The outline of this content as a ReportVisit keeps it.
+[[nodiscard]] std::vector<Eigen::Vector2d> outlineForTrends(const ReportContent& content);
 
 }  // namespace tarsus

@@ -179,9 +179,11 @@ void aboutSection(Flow& flow) {
   flow.y += page::kSectionGap - 1.0;
   flow.need(22.0);
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 12, say(phrase::kWhatThisIs));
-  paragraphOf(flow,
-              "disclaimer",
-              {{say(phrase::kResearchUse) + say.gap() + say(phrase::kRecords), type::kCell}});
+  QString text = say(phrase::kResearchUse) + say.gap() + say(phrase::kRecords);
+  if (!isSigned(flow.content)) {
+    text += say.gap() + say(phrase::kDraftUntil);
+  }
+  paragraphOf(flow, "disclaimer", {{text, type::kCell}});
 }
 
 }  // namespace tarsus

@@ -82,6 +82,7 @@ inline constexpr Phrase kSameMany{"%1 did not change detectably", "%1 haben sich
 inline constexpr Phrase kUnknownOne{"%1 could not be compared", "%1 war nicht vergleichbar", "%1 n’a pas pu être comparé(e)", "%1 no se pudo comparar", "%1无法比较"};
 inline constexpr Phrase kUnknownMany{"%1 could not be compared", "%1 waren nicht vergleichbar", "%1 n’ont pas pu être comparés", "%1 no se pudieron comparar", "%1无法比较"};
 inline constexpr Phrase kEachMore{"each by more than the smallest detectable change", "jeweils um mehr als die kleinste nachweisbare Änderung", "chaque fois de plus que le plus petit changement détectable", "cada vez en más que el menor cambio detectable", "变化均超过最小可检出变化"};
+inline constexpr Phrase kByMore{"by more than the smallest detectable change", "um mehr als die kleinste nachweisbare Änderung", "de plus que le plus petit changement détectable", "en más que el menor cambio detectable", "变化超过最小可检出变化"};
 inline constexpr Phrase kDeeperAt{"The bed is deeper than at visit %1 at %2 o’clock (see 8).", "Bei %2 Uhr liegt der Wundgrund tiefer als bei Visite %1 (siehe 8).", "Le fond est plus profond qu’à la visite %1 à %2 h (voir 8).", "El lecho es más profundo que en la visita %1 a las %2 (véase 8).", "%2 点方向的创基较第 %1 次更深（见第 8 节）。"};
 inline constexpr Phrase kUnfitScan{"This scan is not fit for measurement", "Diese Aufnahme ist zum Messen ungeeignet", "Cette numérisation est impropre à la mesure", "Este escaneo no es apto para medir", "此次扫描不适合测量"};
 inline constexpr Phrase kScanAgain{"Do not use the numbers; scan again.", "Die Zahlen nicht verwenden; erneut aufnehmen.", "Ne pas utiliser les valeurs ; numériser à nouveau.", "No utilice los números; escanee de nuevo.", "请勿使用这些数值；请重新扫描。"};
@@ -277,7 +278,8 @@ inline constexpr Phrase kHeadFile{"file", "Datei", "fichier", "archivo", "文件
 inline constexpr Phrase kHeadContent{"content", "Inhalt", "contenu", "contenido", "内容"};
 inline constexpr Phrase kHeadSize{"size", "Größe", "taille", "tamaño", "大小"};
 inline constexpr Phrase kWhatThisIs{"What this report is", "Was dieser Bericht ist", "Ce qu’est ce rapport", "Qué es este informe", "关于本报告"};
-inline constexpr Phrase kRecords{"It records measurements; it gives no verdict on class, severity or healing. It is a draft until a clinician signs it.", "Er hält Messungen fest und gibt kein Urteil über Klasse, Schweregrad oder Heilung. Er ist ein Entwurf, bis eine Fachperson ihn signiert.", "Il consigne des mesures ; il ne donne aucun verdict sur la classe, la gravité ou la guérison. C’est un brouillon tant qu’un clinicien ne l’a pas signé.", "Registra mediciones; no da veredicto sobre clase, gravedad o curación. Es un borrador hasta que lo firme un clínico.", "本报告记录测量值，不对分级、严重程度或愈合作出判定。临床人员签名前为草稿。"};
+inline constexpr Phrase kRecords{"It records measurements; it gives no verdict on class, severity or healing.", "Er hält Messungen fest und gibt kein Urteil über Klasse, Schweregrad oder Heilung.", "Il consigne des mesures ; il ne donne aucun verdict sur la classe, la gravité ou la guérison.", "Registra mediciones; no da veredicto sobre clase, gravedad o curación.", "本报告记录测量值，不对分级、严重程度或愈合作出判定。"};
+inline constexpr Phrase kDraftUntil{"It is a draft until a clinician signs it.", "Er ist ein Entwurf, bis eine Fachperson ihn signiert.", "C’est un brouillon tant qu’un clinicien ne l’a pas signé.", "Es un borrador hasta que lo firme un clínico.", "临床人员签名前为草稿。"};
 // clang-format on
 
 }  // namespace tarsus::phrase

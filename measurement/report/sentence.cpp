@@ -45,7 +45,9 @@ QString sinceSentence(const ReportContent& content,
       const QString joined = say.listed(clauses);
       const QString comma =
           say.language() == ReportLanguage::Chinese ? QString(QChar(0xFF0C)) : QStringLiteral(", ");
-      clauses = QStringList{joined + comma + say(phrase::kEachMore)};
+      clauses = QStringList{
+          joined + comma +
+          say(names[Fell].size() + names[Rose].size() == 1 ? phrase::kByMore : phrase::kEachMore)};
     }
   }
   const auto days = daysBetween(previous.date, content.visits.back().date);
