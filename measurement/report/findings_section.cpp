@@ -219,7 +219,7 @@ double drawnClock(Flow& flow, double left_mm, double top_mm) {
 
 /// What was seen, one line a finding. @return bottom [mm]
 double findingRows(Flow& flow, double left_mm, double top_mm) {
-  constexpr double kNameWidth = 19.0;
+  constexpr double kNameWidth = 23.0;
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
   double y = top_mm;

@@ -98,12 +98,12 @@ QString runningLine(const ReportContent& content, const Speech& say) {
   }
   const ReportRecord& record = *content.record;
   const int visit = content.visits.empty() ? 1 : content.visits.back().number;
-  return QStringList{
-      say.entered(record.patient_name),
-      say.entered(record.patient_id),
-      woundLine(content, say),
-      say(phrase::kVisitPicture, QString::number(visit), say.date(record.visit_time))}
-      .join(QStringLiteral(" \u00B7 "));
+  return QStringLiteral(" \u00B7 ") +
+         QStringList{
+             say.entered(record.patient_id),
+             woundLine(content, say),
+             say(phrase::kVisitPicture, QString::number(visit), say.date(record.visit_time))}
+             .join(QStringLiteral(" \u00B7 "));
 }
 
 }  // namespace
@@ -137,9 +137,15 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
   } else {
     // The whole line stands on page 1; here it only says whose page this is.
     const double room = badge_left - page::kLeft - 2.0;
-    canvas.text({page::kLeft, top + 0.6},
-                elided(canvas, runningLine(content, say), type::kCell.asBold(), room),
-                type::kCell.asBold());
+    const TextStyle bold{8, 11.5, true, ink::kBlack};
+    const TextStyle rest_style = content.record ? TextStyle{8, 11.5, false, ink::kBlack} : bold;
+    const QString name = content.record ? say.entered(content.record->patient_name) : QString();
+    const QString shown = elided(canvas, name, bold, 0.4 * room);
+    const double name_mm = canvas.widthOf(shown, bold);
+    canvas.text({page::kLeft, top + 0.6}, shown, bold);
+    canvas.text({page::kLeft + name_mm, top + 0.6},
+                elided(canvas, runningLine(content, say), rest_style, room - name_mm),
+                rest_style);
     canvas.line({page::kLeft, top + 5.8}, {page::kRight, top + 5.8}, 0.35, ink::kBlack);
   }
   canvas.frame("head", {page::kLeft, top, page::kContentWidth, canvas.page() == 1 ? 6.6 : 5.8});

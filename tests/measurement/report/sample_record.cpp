@@ -1,5 +1,6 @@
 #include "tests/measurement/report/sample_record.h"
 
+#include "measurement/report/change_picture.h"
 #include "measurement/scores/scores.h"
 
 #include <array>
@@ -162,6 +163,57 @@ void addSignatures(ReportContent& content) {
                     std::string(60, 'e') + "4f08"}};
 }
 
+/// A change map over the sample's own surface: filled by up to 2.5 mm, one spot deeper.
+ChangeMap makeMap() {
+  const Case& one = makeCase();
+  ChangeMap map;
+  map.surface = one.foot.mesh;
+  for (const Eigen::Vector3f& p : map.surface.vertices) {
+    const double dx = static_cast<double>(p.x()) - kWoundAt.x();
+    const double dy = static_cast<double>(p.y()) - kWoundAt.y();
+    const double share = std::hypot(dx, dy) / (1.2 * outlineRadius(std::atan2(dy, dx)));
+    const double filled = share < 1.0 ? 2.5 * (1.0 - share * share) : 0.0;
+    const double spot = std::hypot(dx + 4.0, dy - 4.0);
+    const double deeper = spot < 3.0 ? 4.5 * (1.0 - spot / 3.0) : 0.0;
+    map.distance_mm.push_back(static_cast<float>(filled - deeper));
+    map.limit_mm.push_back(0.4F);
+    map.unseen.push_back(0);
+    map.in_wound.push_back(share < 1.0 ? 1 : 0);
+  }
+  map.outline_b_mm = one.wound.outline_mm;
+  map.outline_a_mm = one.wound.outline_mm;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : map.outline_b_mm) {
+    middle += p / static_cast<double>(map.outline_b_mm.size());
+  }
+  for (Eigen::Vector3d& p : map.outline_a_mm) {
+    p = middle + 1.2 * (p - middle);
+  }
+  map.limit_of_detection_mm = 0.4;
+  return map;
+}
+
+ReportComparison makeComparison(int visits) {
+  const Case& one = makeCase();
+  VisitComparison result;
+  result.aligned = true;
+  result.registration.accepted = true;
+  result.registration.rms_residual_mm = 0.31;
+  result.registration.inlier_fraction = 0.84;
+  result.gilman_mm_per_week = 0.56;
+  result.map = makeMap();
+  result.sectors = sectorsOf(*result.map, one.landmarks);
+  const ComparedWound wound{one.foot, one.wound, one.landmarks};
+  static const ReportComparison pictures = illustrateComparison(wound, wound, result);
+  ReportComparison comparison = pictures;
+  comparison.earlier_visit = 1;
+  comparison.later_visit = visits;
+  comparison.earlier_date = dayAfterStart(0);
+  comparison.later_date = dayAfterStart(visits > 4 ? 8 * (visits - 1) : 9 * (visits - 1));
+  comparison.days = 27.0;
+  return comparison;
+}
+
 }  // namespace
 
 ReportContent makeRecord(int visits) {
@@ -193,6 +245,8 @@ ReportContent makeRecord(int visits) {
                     {dayAfterStart(23), "cast off for 3 days (reported by the patient)", false}};
   if (visits < 2) {
     content.events.clear();
+  } else {
+    content.comparison = makeComparison(visits);
   }
   addFindings(content);
   addScores(content);
@@ -249,6 +303,7 @@ ReportContent withNothingMeasured(ReportContent content) {
   content.amendments.clear();
   content.files.clear();
   content.events.clear();
+  content.comparison.reset();
   content.texture = {};
   content.depth_map = {};
   content.foot = {};
