@@ -101,7 +101,7 @@ void changeMap(Flow& flow, const ReportComparison& comparison, const QRectF& box
   const PictureMap map = mapOf(comparison.change_map, box);
   canvas.clip(box);
   canvas.image(box, comparison.change_map);
-  hatch(canvas, map.triangles(comparison.deeper_px), {QColor(), ink::kBlack, 1.2});
+  hatch(canvas, map.triangles(comparison.deeper_px), {QColor(), ink::kBlack, 1.2, 0.17});
   limitLine(canvas, comparison, map);
   drawEarlierOutline(canvas, map.closed(comparison.map_earlier_px), Qt::black);
   drawOutline(canvas, map.closed(comparison.map_later_px));
@@ -146,7 +146,7 @@ double changeLegend(Flow& flow, const ReportComparison& comparison, double top_m
     if (step.mm < 0.0) {
       QPainterPath path;
       path.addRect(box);
-      hatch(canvas, path, {QColor(), ink::kBlack, 1.2});
+      hatch(canvas, path, {QColor(), ink::kBlack, 1.2, 0.17});
     }
     canvas.edge(box, 0.2, ink::kBlack);
     canvas.text({kMapLeft + 7.2, y}, step.words, type::kCaption);

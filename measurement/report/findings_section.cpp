@@ -218,7 +218,7 @@ double drawnClock(Flow& flow, double left_mm, double top_mm) {
 }
 
 /// What was seen, one line a finding. @return bottom [mm]
-double findingRows(Flow& flow, double left_mm, double top_mm) {
+double findingRows(Flow& flow, double left_mm, double top_mm, bool paint) {
   constexpr double kNameWidth = 23.0;
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
@@ -229,31 +229,28 @@ double findingRows(Flow& flow, double left_mm, double top_mm) {
     const std::vector<TextRun> said{
         {text, value.empty() ? type::kCell.in(ink::kGrey) : type::kCell}};
     const double width = page::kRight - left_mm - kNameWidth - 1.0;
-    canvas.paragraph({left_mm, y}, kNameWidth, label);
-    const double height = canvas.paragraph({left_mm + kNameWidth + 1.0, y}, width, said);
-    y += std::max(height, canvas.paragraphHeight(kNameWidth, label)) + 0.3;
+    if (paint) {
+      canvas.paragraph({left_mm, y}, kNameWidth, label);
+      canvas.paragraph({left_mm + kNameWidth + 1.0, y}, width, said);
+    }
+    y += 0.3 +
+         std::max(canvas.paragraphHeight(width, said), canvas.paragraphHeight(kNameWidth, label));
   }
   return y;
-}
-
-double findingsHeight(const Flow& flow) {
-  double rows = 0.0;
-  for (const auto& row : flow.content.findings.rows) {
-    rows += row.second.size() > 24 ? 8.4 : 4.4;
-  }
-  return 5.2 + std::max(41.0, rows);
 }
 
 }  // namespace
 
 void findingsSection(Flow& flow) {
   const Speech& say = flow.canvas.speech();
-  flow.need(findingsHeight(flow));
+  constexpr double kRowsLeft = page::kLeft + 124.0;
+  constexpr double kDrawings_mm = 41.0;
+  flow.need(5.2 + std::max(kDrawings_mm, findingRows(flow, kRowsLeft, 0.0, false)));
   const double start = flow.y;
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 5, say(phrase::kTissueHead));
   const double bars = tissueBars(flow, flow.y);
   const double clock = drawnClock(flow, page::kLeft + 86.0, flow.y);
-  const double rows = findingRows(flow, page::kLeft + 124.0, flow.y);
+  const double rows = findingRows(flow, kRowsLeft, flow.y, true);
   flow.y = std::max({bars, clock, rows});
   flow.canvas.frame("findings", {page::kLeft, start, page::kContentWidth, flow.y - start});
   flow.y += page::kSectionGap;

@@ -75,18 +75,19 @@ double stateColumn(PageCanvas& canvas, const ReportContent& content, double top_
   const ReportRecord& record = *content.record;
   stateBadge(canvas, content, {page::kRight, top_mm});
   const TextStyle style{8, 10, false, ink::kBlack};
-  canvas.text({page::kRight, top_mm + 5.2},
-              say(phrase::kReportId, say.entered(record.report_id)),
-              style,
-              Qt::AlignRight);
+  // A long identifier wraps in its own column, left of which the visit stands.
+  constexpr double kWidth = 44.0;
+  const QString id = say(phrase::kReportId, say.entered(record.report_id));
+  const double x = page::kRight - std::min(kWidth, canvas.widthOf(id, style) + 0.1);
+  const double id_mm = canvas.paragraph({x, top_mm + 5.2}, page::kRight - x + 0.1, {{id, style}});
   QString version = say(phrase::kVersion, QString::number(record.version));
   if (!content.amendments.empty()) {
     const auto count = static_cast<int>(content.amendments.size());
     version += QLatin1Char(' ') + (count == 1 ? say(phrase::kOneAmendment)
                                               : say(phrase::kAmendments, QString::number(count)));
   }
-  canvas.text({page::kRight, top_mm + 8.9}, version, style, Qt::AlignRight);
-  return top_mm + 12.4;
+  canvas.text({page::kRight, top_mm + 5.2 + id_mm}, version, style, Qt::AlignRight);
+  return top_mm + 8.7 + id_mm;
 }
 
 double woundBlock(PageCanvas& canvas, const ReportContent& content, double top_mm) {

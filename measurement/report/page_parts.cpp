@@ -137,14 +137,19 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
   } else {
     // The whole line stands on page 1; here it only says whose page this is.
     const double room = badge_left - page::kLeft - 2.0;
-    const TextStyle bold{8, 11.5, true, ink::kBlack};
-    const TextStyle rest_style = content.record ? TextStyle{8, 11.5, false, ink::kBlack} : bold;
+    TextStyle bold{8, 11.5, true, ink::kBlack};
     const QString name = content.record ? say.entered(content.record->patient_name) : QString();
+    const QString rest = runningLine(content, say);
+    while (bold.size_pt > 7.0 && canvas.widthOf(name + rest, bold) > room) {
+      bold.size_pt -= 0.5;
+    }
+    TextStyle rest_style = bold;
+    rest_style.bold = !content.record;
     const QString shown = elided(canvas, name, bold, 0.4 * room);
     const double name_mm = canvas.widthOf(shown, bold);
     canvas.text({page::kLeft, top + 0.6}, shown, bold);
     canvas.text({page::kLeft + name_mm, top + 0.6},
-                elided(canvas, runningLine(content, say), rest_style, room - name_mm),
+                elided(canvas, rest, rest_style, room - name_mm),
                 rest_style);
     canvas.line({page::kLeft, top + 5.8}, {page::kRight, top + 5.8}, 0.35, ink::kBlack);
   }

@@ -102,7 +102,7 @@ void hatch(PageCanvas& canvas, const QPainterPath& shape_mm, const HatchStyle& s
     stripes.moveTo(sum - box.bottom(), box.bottom());
     stripes.lineTo(sum - box.top(), box.top());
   }
-  canvas.path(stripes, QPen(style.stripe, 0.4 * style.step_mm, Qt::SolidLine, Qt::FlatCap));
+  canvas.path(stripes, QPen(style.stripe, style.share * style.step_mm, Qt::SolidLine, Qt::FlatCap));
   canvas.unclip();
 }
 

@@ -59,6 +59,7 @@ struct HatchStyle {
   QColor ground;  ///< not drawn where it is not valid
   QColor stripe;
   double step_mm = 1.1;
+  double share = 0.4;  ///< of the step that a stripe fills
 };
 /// Stripes at 45 degrees inside the shape.
 void hatch(PageCanvas& canvas, const QPainterPath& shape_mm, const HatchStyle& style);

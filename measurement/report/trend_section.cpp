@@ -221,7 +221,11 @@ void drawSeries(PageCanvas& canvas,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = time.at(points[i].week);
     if (!points[i].value) {
-      drawNotMeasurable(canvas, {x, values.bottom_mm}, !many && i + 1 < points.size());
+      // The whole words where they end before the next visit.
+      const double words =
+          4.0 + canvas.widthOf(canvas.speech()(phrase::kNotMeasurable), type::kSmall);
+      const bool room = i + 1 < points.size() && time.at(points[i + 1].week) - x > words;
+      drawNotMeasurable(canvas, {x, values.bottom_mm}, !many && room);
       continue;
     }
     drawPoint(canvas, {x, values.at(*points[i].value)}, points[i], values, i + 1 == points.size());

@@ -4,6 +4,8 @@
 #include "tests/measurement/report/sample_record.h"
 #include "tests/support/temporary_folder.h"
 
+#include <QString>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -120,7 +122,14 @@ TEST(RecordReport, SpeaksEachLanguageWithItsNumbersAndDates) {
   for (const ReportLanguage language : kReportLanguages) {
     const auto index = static_cast<std::size_t>(language);
     const auto pages = printedText(sample::in(language, sample::makeRecord(4)));
-    expectText(pages.at(0), wanted.at(index));
+    // Qt names some Chinese glyphs by their radical's code; compatibility folding undoes that.
+    const QString folded =
+        QString::fromStdString(pages.at(0)).normalized(QString::NormalizationForm_KC);
+    for (const std::string& words : wanted.at(index)) {
+      const QString sought =
+          QString::fromStdString(words).normalized(QString::NormalizationForm_KC);
+      EXPECT_TRUE(folded.contains(sought)) << words;
+    }
   }
 }
 
