@@ -92,7 +92,7 @@ double headBadges(PageCanvas& canvas, const ReportContent& content, double top_m
 }
 
 /// Whose page this is: a page that falls out of a folder still says it.
-QString runningLine(const ReportContent& content, const Speech& say) {
+QString runningLine(const ReportContent& content, const QString& wound, const Speech& say) {
   if (!content.record) {
     return QString::fromStdString(content.title_line);
   }
@@ -101,7 +101,7 @@ QString runningLine(const ReportContent& content, const Speech& say) {
   return QStringLiteral(" \u00B7 ") +
          QStringList{
              say.entered(record.patient_id),
-             woundLine(content, say),
+             wound,
              say(phrase::kVisitPicture, QString::number(visit), say.date(record.visit_time))}
              .join(QStringLiteral(" \u00B7 "));
 }
@@ -139,9 +139,15 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
     const double room = badge_left - page::kLeft - 2.0;
     TextStyle bold{8, 11.5, true, ink::kBlack};
     const QString name = content.record ? say.entered(content.record->patient_name) : QString();
-    const QString rest = runningLine(content, say);
+    QString wound = content.record ? woundLine(content, say) : QString();
+    QString rest = runningLine(content, wound, say);
     while (bold.size_pt > 7.0 && canvas.widthOf(name + rest, bold) > room) {
       bold.size_pt -= 0.5;
+    }
+    // Where it is still too long the place of the wound is cut, never the visit.
+    while (wound.size() > 4 && canvas.widthOf(name + rest, bold) > room) {
+      wound = wound.left(wound.size() - 2).trimmed() + QChar(0x2026);
+      rest = runningLine(content, wound, say);
     }
     TextStyle rest_style = bold;
     rest_style.bold = !content.record;

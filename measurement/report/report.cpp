@@ -94,31 +94,33 @@ PrintedPdf print(const ReportContent& content, int pages) {
   return result;
 }
 
-/// PrintedPdf twice: the first time to learn how many pages there are.
-Expected<PrintedPdf> printWhole(const ReportContent& content) {
+/// What printing needs beside the content.
+Expected<void> prepare(const ReportContent& content) {
   TARSUS_REQUIRE(qGuiApp != nullptr, "a report needs a QGuiApplication for its fonts");
   TARSUS_REQUIRE(content.record || !content.title_line.empty(), "a report says whose it is");
   fixHashOrder();
-  if (const Expected<void> fonts = checkFonts(); !fonts) {
-    return tl::unexpected(fonts.error());
-  }
-  return print(content, print(content, 2).pages);
+  return checkFonts();
 }
 
 }  // namespace
 
 Expected<void> writeReport(const std::filesystem::path& path, const ReportContent& content) {
-  const Expected<PrintedPdf> printed = printWhole(content);
-  if (!printed) {
-    return tl::unexpected(printed.error());
+  if (const Expected<void> ready = prepare(content); !ready) {
+    return tl::unexpected(ready.error());
   }
-  const QByteArray pdf = withFixedDates(printed->pdf, content.created);
+  // Most reports have as many pages as this; else a second print puts the right number on them.
+  const int expected_pages = !content.record ? 2 : previousVisit(content) == nullptr ? 3 : 4;
+  PrintedPdf printed = print(content, expected_pages);
+  if (printed.pages != expected_pages) {
+    printed = print(content, printed.pages);
+  }
+  const QByteArray pdf = withFixedDates(printed.pdf, content.created);
   const std::span<const char> bytes(pdf.constData(), static_cast<std::size_t>(pdf.size()));
   return writeFileAtomically(path, std::as_bytes(bytes));
 }
 
 Expected<std::vector<ReportFrame>> layoutReport(const ReportContent& content) {
-  return printWhole(content).map([](PrintedPdf printed) { return std::move(printed.frames); });
+  return prepare(content).map([&] { return print(content, 1).frames; });
 }
 
 }  // namespace tarsus

@@ -311,7 +311,7 @@ double panel(Flow& flow, const Panel& what, double top_mm, const TimeAxis& time)
   const std::vector<PlotPoint> points = pointsOf(flow.content, what);
   const ValueAxis values = valueAxis(points, top_mm, what.height_mm);
   canvas.text({page::kLeft, top_mm}, what.name, type::kCell.asBold());
-  canvas.text({page::kLeft, top_mm + 4.0}, what.unit, type::kCaption.in(ink::kGrey));
+  canvas.paragraph({page::kLeft, top_mm + 4.0}, 19.0, {{what.unit, type::kCaption.in(ink::kGrey)}});
   grid(canvas,
        values,
        time,
@@ -350,10 +350,14 @@ void outlineRow(Flow& flow, double top_mm, const TimeAxis& time) {
     reduction *= 1.5;
   }
   const QString ratio = ratioText(reduction, say);
-  canvas.text({page::kLeft, top_mm + 2.0}, say(phrase::kVisitOutline), type::kCell.asBold());
-  canvas.text({page::kLeft, top_mm + 6.0},
-              say(content.oriented ? phrase::kToesUp : phrase::kNotOriented, ratio),
-              type::kCaption.in(ink::kGrey));
+  // Beside the first outline, which reaches left of the axis.
+  const double label_mm = kPlotLeft - 0.5 * tallest / reduction - page::kLeft - 1.0;
+  const double name_mm = canvas.paragraph(
+      {page::kLeft, top_mm}, label_mm, {{say(phrase::kVisitOutline), type::kCell.asBold()}});
+  canvas.paragraph(
+      {page::kLeft, top_mm + name_mm},
+      label_mm,
+      {{say(content.oriented ? phrase::kToesUp : phrase::kNotOriented, ratio), type::kSmall}});
   const double least = many ? 8.5 : 0.6 * tallest / reduction + 4.0;
   const double today_x = time.at(weekOf(content, content.visits.back().date));
   double before = -1e9;
