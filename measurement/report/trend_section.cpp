@@ -13,7 +13,7 @@ namespace {
 constexpr double kPlotLeft = 43.9;
 constexpr double kPlotWidth = 102.0;
 constexpr double kPlotRight = kPlotLeft + kPlotWidth;
-constexpr double kOutlineRow = 13.0;
+constexpr double kOutlineRow = 15.0;
 constexpr std::size_t kManyVisits = 8;
 
 /// Values of one quantity over the visits, in printed units.
@@ -549,7 +549,7 @@ void trendSection(Flow& flow) {
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
   const ReportContent& content = flow.content;
-  constexpr double kPlots_mm = 112.0;
+  constexpr double kPlots_mm = 114.0;
   flow.need(kPlots_mm + 8.0 + footnotes(flow, 0.0, false));
   const double start = flow.y;
   headNote(flow,
