@@ -4,6 +4,9 @@
 #include "measurement/records/revisions.h"
 #include "measurement/records/subjects.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace tarsus {
 namespace {
 
@@ -104,6 +107,31 @@ Expected<Patient> findPatient(Store& store, std::string_view id) {
   return store.who(Permission::Read).and_then([&](const SignedIn&) {
     return currentRevision(store, RecordKind::Patient, id).and_then(readPatient);
   });
+}
+
+Expected<std::vector<Patient>> allPatients(Store& store) {
+  if (auto who = store.who(Permission::Read); !who) {
+    return tl::unexpected(who.error());
+  }
+  const auto revisions = currentOfKind(store, RecordKind::Patient);
+  if (!revisions) {
+    return tl::unexpected(revisions.error());
+  }
+  std::vector<Patient> patients;
+  for (const Revision& revision : *revisions) {
+    if (revision.trashed || !revision.parent.empty()) {
+      continue;
+    }
+    auto patient = readPatient(revision);
+    if (!patient) {
+      return tl::unexpected(patient.error());
+    }
+    patients.push_back(std::move(*patient));
+  }
+  std::ranges::sort(patients, {}, [](const Patient& p) {
+    return std::tuple(p.fields.family_name, p.fields.given_name, p.id);
+  });
+  return patients;
 }
 
 Expected<std::vector<Patient>> searchPatients(Store& store,

@@ -110,9 +110,9 @@ QString runningLine(const ReportContent& content, const QString& wound, const Sp
 
 QString woundLine(const ReportContent& content, const Speech& say) {
   const ReportRecord& record = *content.record;
-  const Phrase& side = record.side == FootSide::Left    ? phrase::kLeftFoot
-                       : record.side == FootSide::Right ? phrase::kRightFoot
-                                                        : phrase::kSideNotRecorded;
+  const Phrase& side = record.side == ReportSide::Left    ? phrase::kLeftFoot
+                       : record.side == ReportSide::Right ? phrase::kRightFoot
+                                                          : phrase::kSideNotRecorded;
   QStringList place{say(side)};
   for (const std::string& word : {record.surface, record.site}) {
     if (!word.empty()) {

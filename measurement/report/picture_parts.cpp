@@ -117,10 +117,10 @@ QString ratioText(double ratio, const Speech& say) {
 }
 
 PictureSide rightOfPicture(const ReportContent& content) {
-  if (!content.oriented || !content.record || content.record->side == FootSide::NotRecorded) {
+  if (!content.oriented || !content.record || content.record->side == ReportSide::NotRecorded) {
     return PictureSide::Unknown;
   }
-  const bool is_right = content.record->side == FootSide::Right;
+  const bool is_right = content.record->side == ReportSide::Right;
   if (content.record->surface == "plantar") {
     return is_right ? PictureSide::Medial : PictureSide::Lateral;
   }

@@ -26,7 +26,7 @@ inline constexpr std::array kReportLanguages{ReportLanguage::English,
                                              ReportLanguage::Chinese};
 
 enum class ReportState { Draft, Signed, Reviewed };
-enum class FootSide { NotRecorded, Left, Right };
+enum class ReportSide { NotRecorded, Left, Right };
 
 /// Whose wound it is, which visit, and what state the record is in.
 struct ReportRecord {
@@ -34,7 +34,7 @@ struct ReportRecord {
   std::string birth_date;
   std::string patient_id;
   int wound_number = 1;
-  FootSide side = FootSide::NotRecorded;
+  ReportSide side = ReportSide::NotRecorded;
   std::string surface;  ///< "plantar", "dorsal", ...: with the side it says where medial is
   std::string site;
   std::string aetiology;

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace tarsus {
@@ -122,6 +123,56 @@ TEST_F(CliRecords, ABackupRecomputesToTheSameBits) {
   const json again = done("nina", "nurse", "recompute " + visit, "again");
   EXPECT_EQ(again.at("same"), true);
   EXPECT_EQ(again.at("differences").size(), 0U);
+}
+
+std::string textOf(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST_F(CliRecords, AnExportIsWholeAndNamesItsFiles) {
+  const std::string visit = measuredVisit();
+  nurse("export " + file("all"));
+  for (const char* name : {"patients.csv",
+                           "wounds.csv",
+                           "visits.csv",
+                           "measurements.csv",
+                           "records.json",
+                           "manifest.json"}) {
+    EXPECT_TRUE(fs::exists(folder_.path() / "all" / name)) << name;
+  }
+  const fs::path files = folder_.path() / "all" / "visits" / visit;
+  for (const char* name : {"model.ply", "model.stl", "model.obj", "outline.json"}) {
+    EXPECT_TRUE(fs::exists(files / name)) << name;
+  }
+  EXPECT_EQ(textOf(files / "model.ply"), textOf(file("model.ply")));  // to the bit
+  EXPECT_TRUE(contains(textOf(folder_.path() / "all" / "patients.csv"), "Müller"));
+  EXPECT_TRUE(contains(textOf(folder_.path() / "all" / "measurements.csv"), "opening_area_mm2"));
+  const json manifest = json::parse(std::ifstream(folder_.path() / "all" / "manifest.json"));
+  EXPECT_EQ(manifest.at("files").size(), 9U);
+  EXPECT_TRUE(contains(refused("nina", "nurse", "export " + file("all")), "there already"));
+  nurse("export " + file("one.zip") + " --visit " + visit + " --no-models");
+  EXPECT_EQ(textOf(file("one.zip")).substr(0, 2), "PK");
+}
+
+TEST_F(CliRecords, APseudonymisedExportNamesNobody) {
+  const std::string visit = measuredVisit();
+  nurse("visit edit " + visit + " --set \"notes=Mrs Müller from the mill\"");
+  nurse("export " + file("research") + " --pseudonymised");
+  for (const auto& entry : fs::recursive_directory_iterator(file("research"))) {
+    if (entry.is_regular_file() && entry.path().filename() != "model.stl" &&
+        entry.path().filename() != "model.ply") {  // bytes, in which any four letters may stand
+      const std::string text = textOf(entry.path());
+      for (const std::string& secret :
+           {std::string("üller"), std::string("1950-02"), std::string("2026-10"), visit}) {
+        EXPECT_FALSE(contains(text, secret)) << entry.path() << " names " << secret;
+      }
+    }
+  }
+  const std::string numbers = textOf(folder_.path() / "research" / "measurements.csv");
+  EXPECT_TRUE(contains(numbers, "2000-01-01"));
+  EXPECT_TRUE(contains(numbers, "volume_mm3"));
 }
 
 TEST_F(CliRecords, DamageToWhatIsKeptIsNamed) {

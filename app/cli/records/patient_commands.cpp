@@ -83,7 +83,7 @@ void addListPatients(CLI::App& parent, Command& command) {
   CLI::App* sub = addCommand(parent, command, "list", "Find patients by the beginnings of words");
   sub->add_option("QUERY", *query, "Of name, identifier or date of birth; none: all");
   runInStore(*sub, command, [&command, query](Store& store, const Job&) -> Expected<json> {
-    const auto found = searchPatients(store, *query, 1000);
+    const auto found = query->empty() ? allPatients(store) : searchPatients(store, *query, 1000);
     if (!found) {
       return tl::unexpected(found.error());
     }

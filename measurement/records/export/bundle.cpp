@@ -1,7 +1,6 @@
 #include "measurement/records/export/bundle.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tarsus {
 namespace {
@@ -57,7 +56,7 @@ Expected<PatientHistory> historyOfVisit(Store& store, std::string_view visit_id)
 }
 
 Expected<std::vector<PatientHistory>> allHistories(Store& store) {
-  const auto patients = searchPatients(store, "", std::numeric_limits<std::size_t>::max());
+  const auto patients = allPatients(store);
   if (!patients) {
     return tl::unexpected(patients.error());
   }

@@ -101,13 +101,13 @@ TEST(RecordReport, ADraftNeverShowsTheSignedBadge) {
 TEST(RecordReport, MedialChangesSidesWithFootAndSurface) {
   ReportContent content = sample::makeRecord(1);
   EXPECT_EQ(rightOfPicture(content), PictureSide::Medial);
-  content.record->side = FootSide::Left;
+  content.record->side = ReportSide::Left;
   EXPECT_EQ(rightOfPicture(content), PictureSide::Lateral);
   content.record->surface = "dorsal";
   EXPECT_EQ(rightOfPicture(content), PictureSide::Medial);
   content.record->surface = "medial";
   EXPECT_EQ(rightOfPicture(content), PictureSide::Unknown);
-  content.record->side = FootSide::NotRecorded;
+  content.record->side = ReportSide::NotRecorded;
   content.record->surface = "plantar";
   EXPECT_EQ(rightOfPicture(content), PictureSide::Unknown);
 }

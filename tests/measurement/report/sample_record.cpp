@@ -224,7 +224,7 @@ ReportContent makeRecord(int visits) {
   record.birth_date = "1958-03-14";
   record.patient_id = "SAMPLE-0007";
   record.wound_number = 1;
-  record.side = FootSide::Right;
+  record.side = ReportSide::Right;
   record.surface = "plantar";
   record.site = "mth_2";
   record.aetiology = "neuropathic";
