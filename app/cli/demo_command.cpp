@@ -1,4 +1,5 @@
 #include "app/cli/command.h"
+#include "app/cli/demo_history.h"
 #include "app/cli/print.h"
 #include "app/cli/print_report.h"
 #include "app/cli/simulate_options.h"
@@ -10,8 +11,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace tarsus {
 namespace {
@@ -84,13 +88,85 @@ Expected<json> measureWoundNumber(int n, const fs::path& out, const json& truth,
   return json{{"measurement", result}, {"truth", known}};
 }
 
+constexpr int kWeeksLater = 4;
+
+WoundFiles filesOfVisit(const fs::path& out, const json& truth) {
+  const auto point = [&](const char* key) {
+    const auto p = truth.at(key).get<std::vector<double>>();
+    return Eigen::Vector3d(p.at(0), p.at(1), p.at(2));
+  };
+  return {.model = out / "model.ply",
+          .outline = out / "scan" / "truth" / "outline_1.json",
+          .skin_curve = {},
+          .tissue = {},
+          .landmarks = Landmarks{.heel_mm = point("heel_mm"), .toe_mm = point("toe_mm")}};
+}
+
+void printHistory(const json& history, const json& before, const json& now) {
+  const auto change = [&](const char* key) {
+    return 100.0 * (now.at(key).get<double>() / before.at(key).get<double>() - 1.0);
+  };
+  const auto line = [&](const char* name, const char* key, double truth) {
+    const json& value = history.at(key);
+    std::printf("  %-8s %s %%   true %+.1f %%\n",
+                name,
+                value.is_number()
+                    ? std::to_string(static_cast<int>(std::lround(value.get<double>()))).c_str()
+                    : "not measurable",
+                truth);
+  };
+  std::printf("\nFirst wound, change in %d weeks\n", kWeeksLater);
+  line("area", "area_change_percent", change("opening_area_mm2"));
+  line("volume", "volume_change_percent", change("volume_mm3"));
+  std::printf("  skin laid on skin: %s\n",
+              history.value("accepted", false) ? "accepted" : "refused");
+}
+
+/// The same foot weeks later, the first wound's history, comparison and report.
+Expected<json> secondVisit(const Arguments& arguments,
+                           const json& truth,
+                           bool printing,
+                           const Job& job) {
+  const fs::path out = arguments.out / "second_visit";
+  const SimulatorOptions later =
+      weeksLater(arguments.simulation, HealingCourse::Shrinking, kWeeksLater);
+  if (auto done = simulateScan(out / "scan", later, job); !done) {
+    return tl::unexpected(done.error());
+  }
+  if (auto reconstruction = reconstructInto(out / "scan", out, job); !reconstruction) {
+    return tl::unexpected(reconstruction.error());
+  }
+  const auto text = readTextFile(out / "scan" / "truth" / "truth.json");
+  if (!text) {
+    return tl::unexpected(text.error());
+  }
+  const json truth_now = json::parse(*text);
+  auto history = demoHistory(arguments.out,
+                             arguments.simulation.foot,
+                             {{.files = filesOfVisit(arguments.out, truth), .weeks = 0},
+                              {.files = filesOfVisit(out, truth_now), .weeks = kWeeksLater}},
+                             job);
+  if (!history) {
+    return history;
+  }
+  if (auto written =
+          writeTextAtomically(arguments.out / "comparison.json", history->dump(2) + "\n");
+      !written) {
+    return tl::unexpected(written.error());
+  }
+  if (printing) {
+    printHistory(*history, truth.at("wounds").at(0), truth_now.at("wounds").at(0));
+  }
+  return history;
+}
+
 Expected<json> demo(const Arguments& arguments, bool printing, const Job& job) {
   const fs::path& out = arguments.out;
-  say(printing, "1/3 Scanning a simulated foot ...");
+  say(printing, "1/4 Scanning a simulated foot ...");
   if (auto done = simulateScan(out / "scan", arguments.simulation, job); !done) {
     return tl::unexpected(done.error());
   }
-  say(printing, "2/3 Reconstructing ...");
+  say(printing, "2/4 Reconstructing ...");
   auto reconstruction = reconstructInto(out / "scan", out, job);
   if (!reconstruction) {
     return tl::unexpected(reconstruction.error());
@@ -98,7 +174,7 @@ Expected<json> demo(const Arguments& arguments, bool printing, const Job& job) {
   if (printing) {
     printReconstruction(*reconstruction, out);
   }
-  say(printing, "3/3 Measuring, with the truth beside ...");
+  say(printing, "3/4 Measuring, with the truth beside ...");
   auto text = readTextFile(out / "scan" / "truth" / "truth.json");
   if (!text) {
     return tl::unexpected(text.error());
@@ -112,8 +188,15 @@ Expected<json> demo(const Arguments& arguments, bool printing, const Job& job) {
     }
     results.push_back(std::move(*result));
   }
-  say(printing, "\nOpen " + (out / "report.pdf").string() + " and " + (out / "model.ply").string());
-  return json{{"wounds", results}, {"out", out.string()}};
+  say(printing,
+      "\n4/4 The same foot " + std::to_string(kWeeksLater) + " weeks later, and what changed ...");
+  auto history = secondVisit(arguments, truth, printing, job);
+  if (!history) {
+    return tl::unexpected(history.error());
+  }
+  say(printing,
+      "\nOpen " + (out / "report_history.pdf").string() + " and " + (out / "model.ply").string());
+  return json{{"wounds", results}, {"history", *history}, {"out", out.string()}};
 }
 
 }  // namespace
@@ -124,7 +207,7 @@ void addDemo(CLI::App& app, Command& command) {
       addCommand(app,
                  command,
                  "demo",
-                 "The whole job without hardware: simulate, reconstruct, measure, report");
+                 "The whole job without hardware: scan, reconstruct, measure, compare, report");
   sub->add_option("OUT", arguments->out, "Where everything is written")->capture_default_str();
   addSimulationOptions(*sub, arguments->simulation);
   sub->callback([&command, arguments] {

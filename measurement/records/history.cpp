@@ -57,6 +57,15 @@ bool isTrashed(const std::unordered_map<std::string, const Revision*>& tree,
 
 }  // namespace
 
+Expected<std::string> patientOf(Store& store, const Visit& visit) {
+  return findWound(store, visit.wound_id)
+      .and_then([&](const Wound& wound) { return findFoot(store, wound.foot_id); })
+      .and_then([&](const Foot& foot) { return findPatient(store, foot.patient_id); })
+      .map([](const Patient& patient) {
+        return patient.merged_into.empty() ? patient.id : patient.merged_into;
+      });
+}
+
 Expected<PatientHistory> patientHistory(Store& store, std::string_view patient_id) {
   auto patient = findPatient(store, patient_id);
   if (!patient) {

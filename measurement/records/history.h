@@ -18,6 +18,10 @@ struct PatientHistory {
   std::vector<Measurement> measurements;  ///< oldest first
 };
 
+/// The patient under whom a visit is read: the kept one where two were merged.
+/// @errors RecordMissing, StoreLocked, StoreDamaged
+[[nodiscard]] Expected<std::string> patientOf(Store& store, const Visit& visit);
+
 /// @errors RecordMissing, StoreLocked, StoreDamaged
 [[nodiscard]] Expected<PatientHistory> patientHistory(Store& store, std::string_view patient_id);
 

@@ -49,6 +49,9 @@ struct WoundMeasurement {
 /// caller.
 [[nodiscard]] nlohmann::json toJson(const WoundMeasurement& measurement);
 
+/// The same read back; what is missing or of another type stays empty.
+[[nodiscard]] WoundMeasurement measurementFromJson(const nlohmann::json& object);
+
 struct Landmarks {
   Eigen::Vector3d heel_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d toe_mm = Eigen::Vector3d::Zero();

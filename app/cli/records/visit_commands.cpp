@@ -7,10 +7,13 @@
 #include "measurement/records/record_json.h"
 #include "measurement/records/removal.h"
 #include "measurement/records/visit_measurement.h"
+#include "measurement/report/visit_report.h"
 #include "reconstruction/base/temporary_folder.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -19,6 +22,9 @@ namespace tarsus {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kNoTemporaryFolder =
+    "no temporary folder could be made; set TMPDIR to one that can be written";
 
 void printLine(const Visit& visit) {
   std::printf("%s %s %s, version %lld%s\n",
@@ -270,6 +276,47 @@ void addShowVisit(CLI::App& parent, Command& command) {
   });
 }
 
+void addReportVisit(CLI::App& parent, Command& command) {
+  struct Arguments {
+    std::string visit;
+    std::filesystem::path pdf;
+    std::string language = "en";
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* sub =
+      addCommand(parent, command, "report", "Print a visit with its history and comparison");
+  sub->add_option("VISIT", arguments->visit)->required();
+  sub->add_option("OUT", arguments->pdf, "The PDF to write")->required()->type_name("OUT.pdf");
+  sub->add_option("--language", arguments->language)
+      ->check(CLI::IsMember({"en", "de", "fr", "es", "zh"}))
+      ->capture_default_str();
+  runInStore(*sub, command, [&command, arguments](Store& store, const Job& job) -> Expected<json> {
+    constexpr std::array kLanguages{"en", "de", "fr", "es", "zh"};
+    const auto* const at = std::ranges::find(kLanguages, arguments->language);
+    const TemporaryFolder folder;
+    if (folder.path().empty()) {
+      return fail(ErrorCode::FileUnwritable, kNoTemporaryFolder);
+    }
+    const auto content = visitReport(
+        store,
+        arguments->visit,
+        folder.path(),
+        {.language = kReportLanguages.at(static_cast<std::size_t>(at - kLanguages.begin())),
+         .version = TARSUS_VERSION},
+        job);
+    if (!content) {
+      return tl::unexpected(content.error());
+    }
+    if (auto written = writeReport(arguments->pdf, *content); !written) {
+      return tl::unexpected(written.error());
+    }
+    if (prints(command)) {
+      std::printf("Wrote %s\n", arguments->pdf.c_str());
+    }
+    return json{{"report", arguments->pdf.string()}, {"record_sha256", content->record_sha256}};
+  });
+}
+
 json differencesJson(const Recomputation& recomputed) {
   json list = json::array();
   for (const Difference& d : recomputed.differences) {
@@ -306,6 +353,7 @@ void addVisits(CLI::App& app, Command& command) {
   addShowVisit(*parent, command);
   addEditVisit(*parent, command, false);
   addMeasureVisit(*parent, command);
+  addReportVisit(*parent, command);
   addStepVisit(*parent, command, "sign", "Sign a draft: from now on it is locked", VisitStep::Sign);
   addStepVisit(*parent, command, "return", "Ask for a change", VisitStep::Return);
   addEditVisit(*parent, command, true);
@@ -321,8 +369,7 @@ void addVisits(CLI::App& app, Command& command) {
   runInStore(*sub, command, [&command, id](Store& store, const Job&) -> Expected<json> {
     const TemporaryFolder folder;
     if (folder.path().empty()) {
-      return fail(ErrorCode::FileUnwritable,
-                  "no temporary folder could be made; set TMPDIR to one that can be written");
+      return fail(ErrorCode::FileUnwritable, kNoTemporaryFolder);
     }
     const auto recomputed = recomputeVisit(store, *id, folder.path(), TARSUS_VERSION);
     if (!recomputed) {

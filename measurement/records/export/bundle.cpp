@@ -26,25 +26,15 @@ Expected<PatientHistory> historyOfVisit(Store& store, std::string_view visit_id)
     return tl::unexpected(visit.error());
   }
   const auto wound = findWound(store, visit->wound_id);
-  if (!wound) {
-    return tl::unexpected(wound.error());
+  const auto patient = patientOf(store, *visit);
+  if (!wound || !patient) {
+    return tl::unexpected(!wound ? wound.error() : patient.error());
   }
-  const auto foot = findFoot(store, wound->foot_id);
-  if (!foot) {
-    return tl::unexpected(foot.error());
-  }
-  auto patient = findPatient(store, foot->patient_id);
-  if (patient && !patient->merged_into.empty()) {
-    patient = findPatient(store, patient->merged_into);
-  }
-  if (!patient) {
-    return tl::unexpected(patient.error());
-  }
-  auto history = patientHistory(store, patient->id);
+  auto history = patientHistory(store, *patient);
   if (!history) {
     return history;
   }
-  keepOnly(history->feet, [&](const Foot& f) { return f.id == foot->id; });
+  keepOnly(history->feet, [&](const Foot& f) { return f.id == wound->foot_id; });
   keepOnly(history->wounds, [&](const Wound& w) { return w.id == wound->id; });
   keepOnly(history->visits, [&](const Visit& v) { return v.id == visit_id; });
   keepOnly(history->measurements, [&](const Measurement& m) { return m.visit_id == visit_id; });

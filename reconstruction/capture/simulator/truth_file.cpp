@@ -19,9 +19,10 @@ json toJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 json toJson(const RigidTransform& transform) {
   json rows = json::array();
   for (int i = 0; i < 4; ++i) {
-    for (int k = 0; k < 4; ++k) {
-      rows.push_back(transform.matrix()(i, k));
-    }
+    rows.push_back({transform.matrix()(i, 0),
+                    transform.matrix()(i, 1),
+                    transform.matrix()(i, 2),
+                    transform.matrix()(i, 3)});
   }
   return rows;
 }

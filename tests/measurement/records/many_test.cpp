@@ -51,9 +51,9 @@ TEST_P(Many, TwoStationsWithAThousandEditsEachLoseNone) {
               told + told_too);
 }
 
-/// 50,000 patients with one wound and ten visits each. Figures are printed, not judged: a busy
-/// machine is no reason to fail.
-TEST_P(Many, FiftyThousandPatients) {
+/// 50,000 patients with one wound and ten visits each: minutes, so by hand (scripts/bench records).
+/// Figures are printed, not judged: a busy machine is no reason to fail.
+TEST_P(Many, DISABLED_FiftyThousandPatients) {
   constexpr int kPatients = 50000;
   constexpr int kVisits = 10;
   Store store = openAs("nils");

@@ -1,0 +1,274 @@
+#include "measurement/report/visit_report.h"
+
+#include "measurement/comparison/comparison.h"
+#include "measurement/records/record_json.h"
+#include "measurement/records/users.h"
+#include "measurement/records/visit_measurement.h"
+#include "measurement/report/change_picture.h"
+#include "measurement/report/close_view.h"
+#include "measurement/report/scan_quality.h"
+#include "measurement/report/visit_rows.h"
+#include "reconstruction/base/atomic_file.h"
+#include "reconstruction/base/sha256.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace tarsus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kDay_ms = 86'400'000.0;
+
+/// A visit with its numbers and, once it was asked for, its model.
+struct Measured {
+  Visit visit;
+  WoundMeasurement numbers;
+  std::optional<MeasuredModel> model;
+};
+
+/// The measured visits of one wound up to this one, which is the last.
+Expected<std::vector<Measured>> measuredVisits(const PatientHistory& history, const Visit& visit) {
+  std::map<std::string, const Measurement*> last;
+  for (const Measurement& measurement : history.measurements) {
+    last[measurement.visit_id] = &measurement;
+  }
+  std::vector<Measured> measured;
+  for (const Visit& each : history.visits) {
+    const bool counts = each.wound_id == visit.wound_id && each.id != visit.id &&
+                        each.content.taken_at_ms < visit.content.taken_at_ms;
+    if (counts && last.contains(each.id)) {
+      measured.push_back({each, measurementFromJson(last.at(each.id)->numbers), {}});
+    }
+  }
+  if (!last.contains(visit.id)) {
+    return fail(ErrorCode::RecordMissing, "visit " + visit.id + " was not measured");
+  }
+  measured.push_back({visit, measurementFromJson(last.at(visit.id)->numbers), {}});
+  return measured;
+}
+
+Expected<void> openModel(Store& store, Measured& measured, const fs::path& folder) {
+  const auto files = visitFiles(store, measured.visit, folder / measured.visit.id);
+  if (!files) {
+    return tl::unexpected(files.error());
+  }
+  auto model = measureFiles(*files);
+  if (!model) {
+    return tl::unexpected(model.error());
+  }
+  measured.model = std::move(*model);
+  return {};
+}
+
+NameOfUser namesOf(Store& store) {
+  return [&store, names = std::map<std::string, std::string>()](const std::string& id) mutable {
+    if (id.empty()) {
+      return std::string();
+    }
+    if (!names.contains(id)) {
+      const auto user = findUser(store, id);
+      names[id] = user ? user->name : id;
+    }
+    return names[id];
+  };
+}
+
+ReportState stateOf(VisitState state) {
+  switch (state) {
+    case VisitState::Signed:
+    case VisitState::Amended:
+      return ReportState::Signed;
+    case VisitState::Reviewed:
+      return ReportState::Reviewed;
+    case VisitState::Draft:
+    case VisitState::Returned:
+      break;
+  }
+  return ReportState::Draft;
+}
+
+ReportRecord recordOf(const PatientHistory& history,
+                      const Visit& visit,
+                      const NameOfUser& name_of) {
+  const PatientFields& patient = history.patient.fields;
+  ReportRecord record;
+  record.patient_name = patient.family_name +
+                        (patient.family_name.empty() || patient.given_name.empty() ? "" : ", ") +
+                        patient.given_name;
+  record.birth_date = patient.birth_date;
+  record.patient_id = patient.identifier.empty() ? history.patient.id : patient.identifier;
+  for (const Wound& wound : history.wounds) {
+    if (wound.id != visit.wound_id) {
+      continue;
+    }
+    record.wound_number = wound.number;
+    record.surface = wound.fields.aspect;
+    record.site = wound.fields.place;
+    record.aetiology = wound.fields.aetiology;
+    record.onset = wound.fields.onset;
+    for (const Foot& foot : history.feet) {
+      if (foot.id == wound.foot_id) {
+        record.side = foot.fields.side == FootSide::Left ? ReportSide::Left : ReportSide::Right;
+      }
+    }
+  }
+  record.visit_id = visit.id;
+  record.visit_time = isoTime(visit.content.taken_at_ms);
+  record.scanned_by = name_of(visit.signed_by.empty() ? visit.author : visit.signed_by);
+  record.report_id = visit.id;
+  record.version = static_cast<int>(visit.revision);
+  record.state = stateOf(visit.state);
+  return record;
+}
+
+/// Of what was signed: the visit and the measurement that counts.
+std::string sha256Of(const Visit& visit, const WoundMeasurement& numbers) {
+  const std::string text = toJson(visit).dump() + toJson(numbers).dump();
+  Sha256 sum;
+  sum.update(std::as_bytes(std::span(text)));
+  return sum.hex();
+}
+
+MeasuredVisit comparedVisit(const MeasuredModel& model) {
+  return {.surface = {.foot = model.foot,
+                      .outline = model.outline,
+                      .landmarks = model.landmarks,
+                      .left_out = {}},
+          .numbers = model.wound.numbers};
+}
+
+/// This visit against the one before it.
+Expected<void> addComparison(std::span<Measured> visits, ReportContent& content) {
+  const Measured& now = visits.back();
+  const Measured& before = visits[visits.size() - 2];
+  const double days =
+      static_cast<double>(now.visit.content.taken_at_ms - before.visit.content.taken_at_ms) /
+      kDay_ms;
+  auto compared = compareVisits(comparedVisit(*before.model), comparedVisit(*now.model), days);
+  if (!compared) {
+    content.why_no_comparison = compared.error().detail;
+    return {};
+  }
+  const auto wound = [](const Measured& m) {
+    return ComparedWound{
+        .foot = m.model->foot, .wound = m.model->wound, .landmarks = m.model->landmarks};
+  };
+  ReportComparison shown = illustrateComparison(wound(before), wound(now), std::move(*compared));
+  shown.later_visit = static_cast<int>(visits.size());
+  shown.earlier_visit = shown.later_visit - 1;
+  shown.earlier_date = isoTime(before.visit.content.taken_at_ms);
+  shown.later_date = isoTime(now.visit.content.taken_at_ms);
+  shown.days = days;
+  content.comparison = std::move(shown);
+  return {};
+}
+
+void addVisits(std::span<const Measured> visits, ReportContent& content) {
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const Measured& each = visits[i];
+    ReportVisit shown{.number = static_cast<int>(i) + 1,
+                      .date = isoTime(each.visit.content.taken_at_ms),
+                      .measurement = each.numbers,
+                      .outline_mm = {},
+                      .tissue = std::nullopt,
+                      .undermining_mm = std::nullopt,
+                      .tunnel_mm = std::nullopt};
+    if (each.model) {
+      shown.tissue = each.model->tissue;
+      shown.outline_mm = i + 1 == visits.size()
+                             ? outlineForTrends(content)
+                             : outlineForTrends(illustrate(
+                                   each.model->foot, each.model->wound, each.model->landmarks));
+    }
+    content.visits.push_back(std::move(shown));
+  }
+}
+
+json reconstructionOf(const fs::path& folder) {
+  const auto text = readTextFile(folder / "reconstruction.json");
+  return text ? json::parse(*text, nullptr, false) : json();
+}
+
+}  // namespace
+
+Expected<ReportContent> visitReport(Store& store,
+                                    std::string_view visit_id,
+                                    const fs::path& folder,
+                                    const VisitReportOptions& options,
+                                    const Job& job) {
+  const auto versions = visitVersions(store, visit_id);
+  if (!versions) {
+    return tl::unexpected(versions.error());
+  }
+  const Visit& visit = versions->back();
+  const auto patient = patientOf(store, visit);
+  if (!patient) {
+    return tl::unexpected(patient.error());
+  }
+  const auto history = patientHistory(store, *patient);
+  if (!history) {
+    return tl::unexpected(history.error());
+  }
+  auto visits = measuredVisits(*history, visit);
+  if (!visits) {
+    return tl::unexpected(visits.error());
+  }
+  // The first for the trends' outlines, the one before for the comparison, this one for all.
+  const std::size_t count = visits->size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (job.stopped()) {
+      return fail(ErrorCode::Cancelled);
+    }
+    job.report("report", static_cast<double>(i) / static_cast<double>(count + 1));
+    if (i == 0 || i + 2 >= count) {
+      if (auto opened = openModel(store, (*visits)[i], folder); !opened) {
+        return tl::unexpected(opened.error());
+      }
+    }
+  }
+  const Measured& now = visits->back();
+  ReportContent content = illustrate(now.model->foot, now.model->wound, now.model->landmarks);
+  const NameOfUser name_of = namesOf(store);
+  content.measurement = now.numbers;
+  content.fit_for_measurement = now.model->fit_for_measurement;
+  content.version = options.version;
+  content.model_sha256 = now.model->foot.sha256;
+  content.created = isoTime(visit.at_ms);
+  content.language = options.language;
+  content.record = recordOf(*history, visit, name_of);
+  content.title_line = content.record->patient_name;
+  const json reconstruction = reconstructionOf(folder / visit.id);
+  addScanQuality(reconstruction, content);
+  content.record->invented =
+      reconstruction.is_object() &&
+      reconstruction.value("camera", json::object()).value("model", "") == "Tarsus simulator";
+  addVisits(*visits, content);
+  if (count > 1) {
+    if (auto compared = addComparison(*visits, content); !compared) {
+      return tl::unexpected(compared.error());
+    }
+  }
+  if (auto found = addFindings(visit, name_of, content); !found) {
+    return tl::unexpected(found.error());
+  }
+  addHistory(*versions, name_of, content);
+  std::vector<Visit> forms;
+  for (const Measured& each : *visits) {
+    forms.push_back(each.visit);
+  }
+  addEvents(forms, content);
+  if (content.record->state != ReportState::Draft) {
+    content.record_sha256 = sha256Of(visit, now.numbers);
+  }
+  return content;
+}
+
+}  // namespace tarsus
