@@ -267,14 +267,15 @@ void PageCanvas::image(const QRectF& box_mm, const ColorImage& image) {
 
 void PageCanvas::clip(const QRectF& box_mm) {
   painter_.save();
-  painter_.setClipRect(QRectF(box_mm.topLeft() * dots_per_mm_, box_mm.size() * dots_per_mm_));
+  painter_.setClipRect(QRectF(box_mm.topLeft() * dots_per_mm_, box_mm.size() * dots_per_mm_),
+                       Qt::IntersectClip);
 }
 
 void PageCanvas::clip(const QPainterPath& path_mm) {
   painter_.save();
   QTransform dots_from_mm;
   dots_from_mm.scale(dots_per_mm_, dots_per_mm_);
-  painter_.setClipPath(dots_from_mm.map(path_mm));
+  painter_.setClipPath(dots_from_mm.map(path_mm), Qt::IntersectClip);
 }
 
 void PageCanvas::edge(const QRectF& box_mm, double width_mm, const QColor& color) {
