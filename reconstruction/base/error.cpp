@@ -27,9 +27,7 @@ constexpr std::array kEntries{
     Entry{ErrorCode::FileUnwritable,
           "file_unwritable",
           "A file could not be written; check the folder and your rights in it."},
-    Entry{ErrorCode::DiskFull,
-          "disk_full",
-          "The disk is full; free some space and try again."},
+    Entry{ErrorCode::DiskFull, "disk_full", "The disk is full; free some space and try again."},
     Entry{ErrorCode::CameraFactsMissing,
           "camera_facts_missing",
           "The scan does not say how its camera sees; put a camera.json into the scan folder or "
@@ -155,13 +153,15 @@ constexpr std::array kEntries{
           "sign_in_delayed",
           "There were too many wrong attempts; wait a while and try again."},
     Entry{ErrorCode::StoreLocked, "store_locked", "The records are locked; sign in again."},
-    Entry{ErrorCode::StoreBusy,
-          "store_busy",
-          "Another program or station is writing to the records; try again in a moment. Nothing was "
-          "changed."},
-    Entry{ErrorCode::StoreFailed,
-          "store_failed",
-          "The records cannot be reached; check that their disk or server is there, and try again."},
+    Entry{
+        ErrorCode::StoreBusy,
+        "store_busy",
+        "Another program or station is writing to the records; try again in a moment. Nothing was "
+        "changed."},
+    Entry{
+        ErrorCode::StoreFailed,
+        "store_failed",
+        "The records cannot be reached; check that their disk or server is there, and try again."},
     Entry{ErrorCode::StoreDamaged,
           "store_damaged",
           "A part of the records is damaged or was changed outside this program; restore it from a "
