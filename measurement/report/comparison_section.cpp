@@ -139,6 +139,7 @@ double changeLegend(Flow& flow, const ReportComparison& comparison, double top_m
        {-1.5, minus + QLatin1Char('2') + dots + minus + QLatin1Char('1')},
        {-2.5, QStringLiteral("< ") + minus + QLatin1Char('2')}}};
   double y = top_mm;
+  double widest = 0.0;
   for (const Step& step : steps) {
     const Rgb8 color = changeColor(static_cast<float>(step.mm), 0.1F, false);
     const QRectF box(kMapLeft, y + 0.2, 6.0, kStep - 0.8);
@@ -150,12 +151,14 @@ double changeLegend(Flow& flow, const ReportComparison& comparison, double top_m
     }
     canvas.edge(box, 0.2, ink::kBlack);
     canvas.text({kMapLeft + 7.2, y}, step.words, type::kCaption);
+    widest = std::max(widest, canvas.widthOf(step.words, type::kCaption));
     y += kStep;
   }
   const QString words = say(phrase::kOutward) + QLatin1Char('\n') + say(phrase::kInward) +
                         QLatin1Char('\n') + say(phrase::kDotted, lod);
-  const double height =
-      canvas.paragraph({kMapLeft + 35.0, top_mm}, 25.5, {{words, type::kCaption}});
+  const double aside = std::max(35.0, 7.2 + widest + 2.0);
+  const double height = canvas.paragraph(
+      {kMapLeft + aside, top_mm}, kChangeMapSide - aside, {{words, type::kCaption}});
   return std::max(y, top_mm + height);
 }
 

@@ -297,7 +297,7 @@ void publishedMarks(PageCanvas& canvas,
   const auto mark = [&](double week, double share, const QString& text, bool right) {
     const QPointF at(time.at(week), values.at(first * share));
     drawDiamond(canvas, at);
-    canvas.haloText(at + QPointF(right ? 2.2 : -2.2, right ? 0.2 : -3.6),
+    canvas.haloText(at + QPointF(right ? 2.2 : -2.2, right ? 1.8 : -3.6),
                     text,
                     type::kSmall.in(ink::kBlack),
                     right ? Qt::AlignLeft : Qt::AlignRight);
@@ -418,10 +418,14 @@ double timeRow(Flow& flow, double top_mm, const TimeAxis& time) {
   canvas.text({page::kLeft, y - 2.4}, say(phrase::kEvents), grey);
   canvas.line({kPlotLeft, y}, {kPlotRight, y}, 0.25, ink::kBlack);
   char letter = 'a';
+  double free_from = 0.0;  // letters of one day stand side by side
   for (const ReportEvent* event : shownEvents(flow.content)) {
     const double x = time.at(std::clamp(weekOf(flow.content, event->date), 0.0, time.weeks));
+    const QString text(1, QLatin1Char(letter++));
+    const double left = std::max(x + 0.9, free_from);
     canvas.line({x, y - 3.0}, {x, y + 1.6}, 0.5, ink::kBlack);
-    canvas.text({x + 0.9, y - 3.6}, QString(QLatin1Char(letter++)), type::kCaption.asBold());
+    canvas.text({left, y - 3.6}, text, type::kCaption.asBold());
+    free_from = left + canvas.widthOf(text, type::kCaption.asBold()) + 0.6;
   }
   return y + 2.4;
 }
