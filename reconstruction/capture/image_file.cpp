@@ -57,7 +57,7 @@ Expected<void> encode(const std::filesystem::path& path,
 
 }  // namespace
 
-Expected<DepthImage> readDepthImage(const std::filesystem::path& path, double units_per_m) {
+Expected<Image<std::uint16_t>> readNumbers(const std::filesystem::path& path) {
   auto raw = decode(path, cv::IMREAD_UNCHANGED);
   if (!raw) {
     return tl::unexpected(raw.error());
@@ -67,14 +67,24 @@ Expected<DepthImage> readDepthImage(const std::filesystem::path& path, double un
                 path.string() + " has " + std::to_string(8 * raw->elemSize1()) + " bits in " +
                     std::to_string(raw->channels()) + " channels");
   }
-  DepthImage depth(raw->cols, raw->rows);
-  const double mm_per_unit = 1000.0 / units_per_m;
+  Image<std::uint16_t> numbers(raw->cols, raw->rows);
   for (int v = 0; v < raw->rows; ++v) {
     const auto* row = raw->ptr<std::uint16_t>(v);
-    for (int u = 0; u < raw->cols; ++u) {
-      depth.at(u, v) = static_cast<float>(row[u] * mm_per_unit);
-    }
+    std::copy(row, row + raw->cols, &numbers.at(0, v));
   }
+  return numbers;
+}
+
+Expected<DepthImage> readDepthImage(const std::filesystem::path& path, double units_per_m) {
+  const auto numbers = readNumbers(path);
+  if (!numbers) {
+    return tl::unexpected(numbers.error());
+  }
+  DepthImage depth(numbers->width(), numbers->height());
+  const double mm_per_unit = 1000.0 / units_per_m;
+  std::ranges::transform(numbers->pixels(), depth.pixels().begin(), [&](std::uint16_t number) {
+    return static_cast<float>(number * mm_per_unit);
+  });
   return depth;
 }
 

@@ -4,10 +4,14 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/image.h"
 
+#include <cstdint>
 #include <filesystem>
 
 namespace tarsus {
 
+/// Reads a 16-bit one-channel PNG: depth in units of its camera, or infrared grey levels.
+/// @errors as readDepthImage
+[[nodiscard]] Expected<Image<std::uint16_t>> readNumbers(const std::filesystem::path& path);
 /// Reads a 16-bit one-channel depth PNG.
 /// @return z [mm], 0 where nothing was measured
 /// @errors FileMissing, FileUnreadable (truncated too), DepthFormatWrong

@@ -71,17 +71,9 @@ std::vector<ViewFiles> evenly(const std::map<std::string, ViewFiles>& views, War
 
 constexpr double kPlainUnits_per_m = 1000.0;  ///< so that mm are units
 
-Expected<RawImage> readRawDepth(const fs::path& path) {
-  const auto units = readDepthImage(path, kPlainUnits_per_m);
-  if (!units) {
-    return tl::unexpected(units.error());
-  }
-  return rawDepth(*units, kPlainUnits_per_m);
-}
-
 /// Grey levels of 8 or 16 bits.
 Expected<RawImage> readGrey(const fs::path& path) {
-  auto deep = readRawDepth(path);
+  auto deep = readNumbers(path);
   if (deep || deep.error().code != ErrorCode::DepthFormatWrong) {
     return deep;
   }
@@ -178,7 +170,7 @@ Expected<CalibrationCapture> viewsOfScan(const fs::path& scan,
         {.name = frame.depth.stem().string(),
          .color = std::move(*color),
          .infrared = {},
-         .depth = imageOf<RawImage>(frame.depth, readRawDepth, capture.warnings)});
+         .depth = imageOf<RawImage>(frame.depth, readNumbers, capture.warnings)});
   }
   if (capture.views.empty()) {
     return fail(ErrorCode::CalibrationFailed,
@@ -215,7 +207,7 @@ Expected<CalibrationCapture> readCalibrationFolder(const fs::path& folder,
         .name = files[at].name,
         .color = imageOf<ColorImage>(files[at].color, readColorImage, warnings[at]),
         .infrared = imageOf<RawImage>(files[at].infrared, readGrey, warnings[at]),
-        .depth = imageOf<RawImage>(files[at].depth, readRawDepth, warnings[at])};
+        .depth = imageOf<RawImage>(files[at].depth, readNumbers, warnings[at])};
   });
   for (Warnings& each : warnings) {
     std::ranges::move(each, std::back_inserter(capture.warnings));

@@ -17,15 +17,13 @@ std::filesystem::path infraredBeside(const std::filesystem::path& depth) {
   return depth.parent_path().parent_path() / "ir" / depth.filename();
 }
 
-/// The stored numbers; false where the image cannot be read or has another size.
-bool readNumbers(const std::filesystem::path& path, std::vector<std::uint16_t>& numbers) {
-  // At 1000 units per metre a pixel's depth in mm is its number.
-  const auto image = readDepthImage(path, 1000.0);
-  if (!image || image->pixels().size() != numbers.size()) {
+/// Into the buffer that is shown; false where the image cannot be read or has another size.
+bool readInto(const std::filesystem::path& path, std::vector<std::uint16_t>& buffer) {
+  const auto numbers = readNumbers(path);
+  if (!numbers || numbers->pixels().size() != buffer.size()) {
     return false;
   }
-  std::ranges::transform(
-      image->pixels(), numbers.begin(), [](float z) { return static_cast<std::uint16_t>(z); });
+  std::ranges::copy(numbers->pixels(), buffer.begin());
   return true;
 }
 
@@ -115,10 +113,10 @@ std::chrono::microseconds FramePlayer::timeOf(int index) const {
 SensorImages FramePlayer::load(int index) {
   const FrameFiles& files = files_[fileOf(index)];
   SensorImages images{.timestamp = timeOf(index), .index = index + 1};
-  if (readNumbers(files.depth, depth_)) {
+  if (readInto(files.depth, depth_)) {
     images.depth = &depth_;
   }
-  if (wants_infrared_ && has_infrared_ && readNumbers(infraredBeside(files.depth), infrared_)) {
+  if (wants_infrared_ && has_infrared_ && readInto(infraredBeside(files.depth), infrared_)) {
     images.infrared = &infrared_;
   }
   if (const auto color = readColorImage(files.color);
