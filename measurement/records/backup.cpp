@@ -123,27 +123,10 @@ Expected<void> copyFile(const fs::path& from, const fs::path& to) {
   });
 }
 
-Expected<std::string> sha256Of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open()) {
-    std::error_code error;
-    return fail(fs::exists(path, error) ? ErrorCode::FileUnreadable : ErrorCode::FileMissing,
-                path.string());
-  }
-  Sha256 sum;
-  std::vector<char> chunk(std::size_t{1} << 20U);
-  while (file) {
-    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    sum.update(std::as_bytes(std::span(chunk.data(), static_cast<std::size_t>(file.gcount()))));
-  }
-  return file.bad() ? fail(ErrorCode::FileUnreadable, path.string())
-                    : Expected<std::string>(sum.hex());
-}
-
 Expected<void> writeManifest(const fs::path& folder, const std::vector<fs::path>& files) {
   json list = json::array();
   for (const fs::path& file : files) {
-    const auto sum = sha256Of(folder / file);
+    const auto sum = sha256OfFile(folder / file);
     if (!sum) {
       return tl::unexpected(sum.error());
     }
@@ -294,7 +277,7 @@ Expected<BackupSummary> verifyBackup(const fs::path& backup) {
   }
   BackupSummary summary;
   for (const Entry& entry : *entries) {
-    const auto sum = sha256Of(backup / entry.path);
+    const auto sum = sha256OfFile(backup / entry.path);
     if (!sum) {
       return tl::unexpected(sum.error());
     }
@@ -319,7 +302,7 @@ Expected<BackupSummary> restore(const fs::path& backup, const StorePlace& place)
   }
   for (const Entry& entry : *entries) {
     auto copied = copyFile(backup / entry.path, place.folder / entry.path);
-    const auto sum = copied.and_then([&] { return sha256Of(place.folder / entry.path); });
+    const auto sum = copied.and_then([&] { return sha256OfFile(place.folder / entry.path); });
     if (!sum || *sum != entry.sha256) {
       return sum ? fail(ErrorCode::StoreDamaged, (place.folder / entry.path).string())
                  : tl::unexpected(sum.error());

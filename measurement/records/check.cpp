@@ -26,18 +26,7 @@ Expected<bool> isAsAudited(Store& store, const SqlRow& row) {
   if (sealed.empty()) {
     return isErased(store, row.text(0));
   }
-  const Revision revision{.record = row.text(0),
-                          .kind = recordKindNamed(row.text(1)).value_or(RecordKind::Settings),
-                          .revision = row.integer(2),
-                          .entry = row.integer(3),
-                          .parent = row.text(4),
-                          .state = row.text(5),
-                          .trashed = row.integer(6) != 0,
-                          .at_ms = row.integer(7),
-                          .author = row.text(8),
-                          .station = row.text(9),
-                          .action = row.text(10)};
-  return revisionDigest(store.vault(), revision, sealed).map([&](const Bytes& digest) {
+  return revisionDigest(store.vault(), clearPart(row), sealed).map([&](const Bytes& digest) {
     return digest == row.bytes(14);
   });
 }

@@ -43,20 +43,6 @@ tl::unexpected<Error> damaged(const std::string& record, const std::string& what
   return fail(ErrorCode::StoreDamaged, "record " + record + ": " + what);
 }
 
-Revision clearPart(const SqlRow& row) {
-  return {.record = row.text(0),
-          .kind = recordKindNamed(row.text(1)).value_or(RecordKind::Settings),
-          .revision = row.integer(2),
-          .entry = row.integer(3),
-          .parent = row.text(4),
-          .state = row.text(5),
-          .trashed = row.integer(6) != 0,
-          .at_ms = row.integer(7),
-          .author = row.text(8),
-          .station = row.text(9),
-          .action = row.text(10)};
-}
-
 Expected<Revision> opened(Store& store, Revision revision, const Bytes& sealed) {
   const auto key = store.vault().key(KeyPurpose::Fields);
   if (!key) {
@@ -220,6 +206,20 @@ tl::unexpected<Error> stale(Store& store, const Revision& current, std::int64_t 
 }
 
 }  // namespace
+
+Revision clearPart(const SqlRow& row) {
+  return {.record = row.text(0),
+          .kind = recordKindNamed(row.text(1)).value_or(RecordKind::Settings),
+          .revision = row.integer(2),
+          .entry = row.integer(3),
+          .parent = row.text(4),
+          .state = row.text(5),
+          .trashed = row.integer(6) != 0,
+          .at_ms = row.integer(7),
+          .author = row.text(8),
+          .station = row.text(9),
+          .action = row.text(10)};
+}
 
 std::string_view nameOf(RecordKind kind) { return kKindNames.at(static_cast<std::size_t>(kind)); }
 

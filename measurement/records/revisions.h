@@ -38,6 +38,10 @@ struct Revision {
   nlohmann::json content;
 };
 
+/// What of a row stands in clear: record, kind, revision, entry, parent, state, trashed, at_ms,
+/// author, station, action, in this order.
+[[nodiscard]] Revision clearPart(const SqlRow& row);
+
 /// What one edit changes; what is not given stays as it was.
 struct RevisionEdit {
   std::string action;

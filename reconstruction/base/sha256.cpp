@@ -5,6 +5,8 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <fstream>
+#include <vector>
 
 namespace tarsus {
 
@@ -37,6 +39,24 @@ std::string Sha256::hex() {
     text += kDigits[byte & 15U];
   }
   return text;
+}
+
+Expected<std::string> sha256OfFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open()) {
+    std::error_code error;
+    return fail(
+        std::filesystem::exists(path, error) ? ErrorCode::FileUnreadable : ErrorCode::FileMissing,
+        path.string());
+  }
+  Sha256 sum;
+  std::vector<char> chunk(std::size_t{1} << 20U);
+  while (file) {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    sum.update(std::as_bytes(std::span(chunk.data(), static_cast<std::size_t>(file.gcount()))));
+  }
+  return file.bad() ? fail(ErrorCode::FileUnreadable, path.string())
+                    : Expected<std::string>(sum.hex());
 }
 
 }  // namespace tarsus

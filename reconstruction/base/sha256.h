@@ -1,6 +1,9 @@
 #pragma once
 
+#include "reconstruction/base/error.h"
+
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,5 +28,8 @@ class Sha256 {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Of a whole file. @errors FileMissing, FileUnreadable
+[[nodiscard]] Expected<std::string> sha256OfFile(const std::filesystem::path& path);
 
 }  // namespace tarsus

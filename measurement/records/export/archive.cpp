@@ -7,8 +7,7 @@
 #include <zip.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
+#include <cerrno>
 #include <memory>
 #include <vector>
 
@@ -32,19 +31,6 @@ std::vector<fs::path> filesBelow(const fs::path& folder) {
   return files;
 }
 
-Expected<std::string> sha256Of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return fail(ErrorCode::FileUnreadable, path.string());
-  }
-  Sha256 sum;
-  std::array<char, 65536> buffer{};
-  while (file.read(buffer.data(), buffer.size()), file.gcount() > 0) {
-    sum.update(std::as_bytes(std::span(buffer.data(), static_cast<std::size_t>(file.gcount()))));
-  }
-  return sum.hex();
-}
-
 struct ZipCloser {
   void operator()(zip_t* archive) const { zip_discard(archive); }
 };
@@ -55,7 +41,7 @@ Expected<ExportSummary> writeManifest(const fs::path& folder, json about) {
   ExportSummary summary;
   json list = json::array();
   for (const fs::path& file : filesBelow(folder)) {
-    const auto sum = sha256Of(folder / file);
+    const auto sum = sha256OfFile(folder / file);
     if (!sum) {
       return tl::unexpected(sum.error());
     }
