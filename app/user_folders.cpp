@@ -20,6 +20,8 @@ std::filesystem::path userDataFolder() {
   return std::filesystem::path(home) / ".local" / "share" / "tarsus";
 }
 
+std::filesystem::path storePlaceFile() { return userDataFolder() / "records.json"; }
+
 std::filesystem::path calibrationFolder() { return userDataFolder() / "calibration"; }
 
 }  // namespace tarsus

@@ -85,6 +85,10 @@ Expected<User> changeUser(
   if (!user) {
     return user;
   }
+  if (active && !user->active) {
+    return fail(ErrorCode::StepNotAllowed,
+                user->name + " has no password any more; access comes back with a new one");
+  }
   if (role != Role::Administrator || !active) {
     if (auto another = requireAnotherAdministrator(store, id); !another) {
       return tl::unexpected(another.error());
@@ -100,6 +104,31 @@ Expected<User> changeUser(
     return tl::unexpected(revision.error());
   }
   const auto done = (active ? Expected<void>() : removeUserKey(store, user->name)).and_then([&] {
+    return change->commit();
+  });
+  return done ? userOf(*revision) : tl::unexpected(done.error());
+}
+
+Expected<User> givePassword(Store& store, std::string_view id, std::string_view password) {
+  auto change = StoreChange::begin(store, Permission::ManageUsers);
+  if (!change) {
+    return tl::unexpected(change.error());
+  }
+  const auto user = findUser(store, id);
+  if (!user) {
+    return user;
+  }
+  // A revision also where nothing of the record changes, so that the audit trail tells of it.
+  const auto revision = addRevision(store,
+                                    RecordKind::User,
+                                    id,
+                                    {.action = "give password",
+                                     .base_revision = user->revision,
+                                     .content = contentOf(user->name, user->role, true)});
+  if (!revision) {
+    return tl::unexpected(revision.error());
+  }
+  const auto done = writeUserKey(store, user->name, user->id, password).and_then([&] {
     return change->commit();
   });
   return done ? userOf(*revision) : tl::unexpected(done.error());

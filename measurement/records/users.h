@@ -27,9 +27,16 @@ struct User {
                                      std::string_view password);
 /// Another role, or no more access: then the password opens nothing any more. Who has seen the
 /// store key before may have kept it; the key itself is not changed.
-/// @errors NotPermitted, RecordStale, StepNotAllowed (the last administrator)
+/// @errors NotPermitted, RecordStale, StepNotAllowed (the last administrator; access again for one
+/// who has no password any more: givePassword)
 [[nodiscard]] Expected<User> changeUser(
     Store& store, std::string_view id, std::int64_t base_revision, Role role, bool active);
+/// A new password from an administrator, for one who forgot it; gives access again where it was
+/// taken away.
+/// @errors NotPermitted, RecordMissing, RecordInvalid (under 8 letters)
+[[nodiscard]] Expected<User> givePassword(Store& store,
+                                          std::string_view id,
+                                          std::string_view password);
 [[nodiscard]] Expected<std::vector<User>> listUsers(Store& store);
 /// @errors RecordMissing
 [[nodiscard]] Expected<User> findUser(Store& store, std::string_view id);

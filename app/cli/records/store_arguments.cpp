@@ -2,6 +2,7 @@
 
 #include "app/cli/qt_session.h"
 #include "app/user_folders.h"
+#include "measurement/records/place_file.h"
 #include "measurement/records/sign_in.h"
 
 #include <CLI/CLI.hpp>
@@ -12,41 +13,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 
 namespace tarsus {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path folderOf(const StoreArguments& arguments) {
-  return arguments.folder.empty() ? userDataFolder() / "records" : arguments.folder;
-}
-
-/// "host=... port=... dbname=... user=...", as PostgreSQL's own programs write it; a password is
-/// left to ~/.pgpass.
-Expected<PostgresAddress> addressOf(const std::string& text) {
-  PostgresAddress address;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const auto equals = word.find('=');
-    const std::string key = word.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (key == "host") {
-      address.host = value;
-    } else if (key == "port") {
-      address.port = std::atoi(value.c_str());
-    } else if (key == "dbname") {
-      address.database = value;
-    } else if (key == "user") {
-      address.user = value;
-    } else {
-      return fail(ErrorCode::BadOption,
-                  "--postgres takes host=, port=, dbname= and user=, not \"" + word + "\"");
-    }
-  }
-  return address;
-}
 
 /// SOURCE_DATE_EPOCH (reproducible-builds.org) fixes it for tests.
 std::int64_t nowMs() {
@@ -82,7 +53,9 @@ Expected<nlohmann::json> signInAndWork(const StoreArguments& arguments,
 }  // namespace
 
 void addPlaceOptions(CLI::App& sub, StoreArguments& arguments) {
-  sub.add_option("--store", arguments.folder, "Folder of the records; else in the user's own data")
+  sub.add_option("--store",
+                 arguments.folder,
+                 "Folder of the records; else what `store use` named, else in the user's own data")
       ->type_name("DIR")
       ->envname("TARSUS_STORE");
   sub.add_option("--postgres",
@@ -116,9 +89,15 @@ Expected<std::string> readPassword(const fs::path& file) {
 }
 
 Expected<StorePlace> placeOf(const StoreArguments& arguments) {
-  StorePlace place{.folder = folderOf(arguments), .postgres = std::nullopt};
+  if (arguments.folder.empty() && arguments.postgres.empty()) {
+    return readStorePlace(storePlaceFile());
+  }
+  StorePlace place{.folder = arguments.folder, .postgres = std::nullopt};
+  if (arguments.folder.empty()) {
+    place.folder = storePlaceFile().parent_path() / "records";
+  }
   if (!arguments.postgres.empty()) {
-    auto address = addressOf(arguments.postgres);
+    auto address = postgresAddressOf(arguments.postgres);
     if (!address) {
       return tl::unexpected(address.error());
     }

@@ -3,10 +3,12 @@
 #include "app/cli/qt_session.h"
 #include "app/cli/records/record_commands.h"
 #include "app/cli/records/store_arguments.h"
+#include "app/user_folders.h"
 #include "app/version.h"
 #include "measurement/records/backup.h"
 #include "measurement/records/check.h"
 #include "measurement/records/export/export.h"
+#include "measurement/records/place_file.h"
 #include "measurement/records/record_json.h"
 #include "measurement/records/sign_in.h"
 #include "measurement/records/users.h"
@@ -22,6 +24,16 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
+
+json shownCode(const std::string& code, bool print) {
+  if (print) {
+    std::printf(
+        "Recovery code: %s\nPrint it and lock it away. It is shown this once; without it and "
+        "without a password nobody can read the records.\n",
+        code.c_str());
+  }
+  return {{"recovery_code", code}};
+}
 
 void addCreateStore(CLI::App& parent, Command& command) {
   auto arguments = std::make_shared<StoreArguments>();
@@ -45,13 +57,7 @@ void addCreateStore(CLI::App& parent, Command& command) {
       if (!code) {
         return tl::unexpected(code.error());
       }
-      if (prints(command)) {
-        std::printf(
-            "Recovery code: %s\nPrint it and lock it away. It is shown this once; without it and "
-            "without a password nobody can read the records.\n",
-            code->c_str());
-      }
-      return json{{"recovery_code", *code}};
+      return shownCode(*code, prints(command));
     };
   });
 }
@@ -110,6 +116,40 @@ void addChangePassword(CLI::App& parent, Command& command) {
       std::printf("The password was changed.\n");
     }
     return json{{"changed", true}};
+  });
+}
+
+void addRenewCode(CLI::App& parent, Command& command) {
+  CLI::App* sub = addCommand(parent,
+                             command,
+                             "renew-recovery-code",
+                             "Another code; the one before opens nothing any more");
+  runInStore(*sub, command, [&command](Store& store, const Job&) -> Expected<json> {
+    const auto code = renewRecoveryCode(store);
+    return code.map([&](const std::string& text) { return shownCode(text, prints(command)); });
+  });
+}
+
+void addUse(CLI::App& parent, Command& command) {
+  auto arguments = std::make_shared<StoreArguments>();
+  CLI::App* sub = addCommand(
+      parent, command, "use", "From now on these records, wherever --store is not given");
+  addPlaceOptions(*sub, *arguments);
+  sub->callback([&command, arguments] {
+    command.run = [&command, arguments](const Job&) -> Expected<json> {
+      const auto place = placeOf(*arguments);
+      const auto kept =
+          place ? writeStorePlace(storePlaceFile(), *place) : tl::unexpected(place.error());
+      if (!kept) {
+        return tl::unexpected(kept.error());
+      }
+      if (prints(command)) {
+        std::printf("This computer's records: %s%s\n",
+                    place->folder.c_str(),
+                    place->postgres ? ", with their tables on a server" : "");
+      }
+      return json{{"folder", place->folder.string()}, {"server", place->postgres.has_value()}};
+    };
   });
 }
 
@@ -195,6 +235,17 @@ void addUserCommands(CLI::App& app, Command& command) {
         changeUser(
             store, user->id, user->revision, *roleNamed(arguments->role), !arguments->no_access),
         prints(command));
+  });
+  CLI::App* password = addCommand(
+      *parent, command, "password", "A new password for one who forgot it, or has no access");
+  password->add_option("USER", arguments->name, "As `user list` names it")->required();
+  password->add_option("--new-password-file", arguments->password_file, "To be changed by the user")
+      ->required()
+      ->type_name("FILE");
+  runInStore(*password, command, [&command, arguments](Store& store, const Job&) -> Expected<json> {
+    const auto given = readPassword(arguments->password_file);
+    return given ? shown(givePassword(store, arguments->name, *given), prints(command))
+                 : tl::unexpected(given.error());
   });
 }
 
@@ -351,6 +402,8 @@ void addStoreCommands(CLI::App& app, Command& command) {
   addCreateStore(*parent, command);
   addChangePassword(*parent, command);
   addResetPassword(*parent, command);
+  addRenewCode(*parent, command);
+  addUse(*parent, command);
   addUserCommands(app, command);
   addAudit(app, command);
   addBackup(app, command);

@@ -5,6 +5,7 @@
 #include "tests/measurement/records/record_test.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tarsus {
 namespace {
@@ -113,6 +114,30 @@ TEST_P(SignIn, ADeactivatedUserIsOutAtOnceAndTheLastAdministratorStays) {
   must(changeUser(office, nils.id, nils.revision, Role::Nurse, false));
   expectFails(addPatient(ward, named("Berg", "Ida")), ErrorCode::StoreLocked);
   expectFails(signIn(ward, "nils", kPassword), ErrorCode::PasswordWrong);
+}
+
+TEST_P(SignIn, AnAdministratorGivesAccessBackWithANewPassword) {
+  Store store = openAs("anna");
+  const auto users = must(listUsers(store));
+  const User nils = *std::ranges::find(users, "nils", &User::name);
+  for (int i = 0; i < 4; ++i) {  // forgotten, and waited for
+    std::ignore = signIn(store, "nils", "forgotten one");
+  }
+  must(signIn(store, "anna", kPassword));
+  must(givePassword(store, nils.id, "a new password"));
+  EXPECT_EQ(must(signIn(store, "nils", "a new password")).role, Role::Nurse);
+  expectFails(givePassword(store, nils.id, "his own choice"), ErrorCode::NotPermitted);
+
+  must(signIn(store, "anna", kPassword));
+  const User out =
+      must(changeUser(store, nils.id, must(findUser(store, nils.id)).revision, Role::Nurse, false));
+  // Without a password there is nothing that could open the records.
+  expectFails(changeUser(store, nils.id, out.revision, Role::Nurse, true),
+              ErrorCode::StepNotAllowed);
+  expectFails(givePassword(store, nils.id, "short"), ErrorCode::RecordInvalid);
+  EXPECT_FALSE(must(findUser(store, nils.id)).active);
+  EXPECT_TRUE(must(givePassword(store, nils.id, "and once more")).active);
+  must(signIn(store, "nils", "and once more"));
 }
 
 TEST_P(SignIn, NamesAreUniqueAndRolesKeepTheirLimits) {
