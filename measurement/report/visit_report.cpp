@@ -60,7 +60,8 @@ Expected<void> openModel(Store& store, Measured& measured, const fs::path& folde
   if (!files) {
     return tl::unexpected(files.error());
   }
-  auto model = measureFiles(*files);
+  // The geometry alone: the numbers and their intervals are those that the visit keeps.
+  auto model = measureFiles(*files, {.intervals = false});
   if (!model) {
     return tl::unexpected(model.error());
   }
@@ -137,12 +138,12 @@ std::string sha256Of(const Visit& visit, const WoundMeasurement& numbers) {
   return sum.hex();
 }
 
-MeasuredVisit comparedVisit(const MeasuredModel& model) {
-  return {.surface = {.foot = model.foot,
-                      .outline = model.outline,
-                      .landmarks = model.landmarks,
+MeasuredVisit comparedVisit(const Measured& visit) {
+  return {.surface = {.foot = visit.model->foot,
+                      .outline = visit.model->outline,
+                      .landmarks = visit.model->landmarks,
                       .left_out = {}},
-          .numbers = model.wound.numbers};
+          .numbers = visit.numbers};
 }
 
 /// This visit against the one before it.
@@ -152,7 +153,7 @@ Expected<void> addComparison(std::span<Measured> visits, ReportContent& content)
   const double days =
       static_cast<double>(now.visit.content.taken_at_ms - before.visit.content.taken_at_ms) /
       kDay_ms;
-  auto compared = compareVisits(comparedVisit(*before.model), comparedVisit(*now.model), days);
+  auto compared = compareVisits(comparedVisit(before), comparedVisit(now), days);
   if (!compared) {
     content.why_no_comparison = compared.error().detail;
     return {};

@@ -77,7 +77,7 @@ Expected<std::optional<TissueShares>> readShares(const std::filesystem::path& pa
 
 }  // namespace
 
-Expected<MeasuredModel> measureFiles(const WoundFiles& files) {
+Expected<MeasuredModel> measureFiles(const WoundFiles& files, const MeasureOptions& options) {
   auto foot = readPly(files.model);
   if (!foot) {
     return tl::unexpected(foot.error());
@@ -110,7 +110,7 @@ Expected<MeasuredModel> measureFiles(const WoundFiles& files) {
   if (auto checked = checkLandmarks(files.landmarks); !checked) {
     return tl::unexpected(checked.error());
   }
-  auto wound = measureWound(*foot, *outline, skin_curve, files.landmarks);
+  auto wound = measureWound(*foot, *outline, skin_curve, files.landmarks, options);
   if (!wound) {
     return tl::unexpected(wound.error());
   }

@@ -35,7 +35,8 @@ struct MeasuredModel {
 /// Reads model, curves and paint, and measures.
 /// @errors those of readPly, traceOutline, measureWound, readTissue, sharesOf; BadOption (landmarks
 ///         that lie on no foot)
-[[nodiscard]] Expected<MeasuredModel> measureFiles(const WoundFiles& files);
+[[nodiscard]] Expected<MeasuredModel> measureFiles(const WoundFiles& files,
+                                                   const MeasureOptions& options = {});
 
 /// measurement.json: the numbers with tissue, version and warnings.
 [[nodiscard]] nlohmann::json measurementJson(const MeasuredModel& measured,
