@@ -91,7 +91,12 @@ Candidate tryTriple(const VisitSkin& a, const VisitSkin& b, const Alike& alike, 
   }
   Candidate candidate{.b_from_a = fitPoints(of_a, of_b)};
   constexpr std::size_t kStride = 15;
+  constexpr double kFew = 25.0;  // looked at before a hopeless pose is given up
   for (std::size_t i = 0; i < a.positions_mm.size(); i += kStride) {
+    const double looked_at = static_cast<double>(i / kStride);
+    if (looked_at >= kFew && candidate.support < 0.4 * looked_at) {
+      return {};
+    }
     const auto hit = b.index.nearest(candidate.b_from_a * a.positions_mm[i], kNear_mm);
     if (hit) {
       const Vector3d facing = faceNormal(b.surface, static_cast<int>(hit->point.face));

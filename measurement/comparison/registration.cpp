@@ -101,10 +101,15 @@ class Registrar {
     return distinct(std::move(poses), kRefined);
   }
 
+  /// The rough poses are in the order of their cost. Those that a short fit leaves far behind the
+  /// best are no rivals, and are spared the rest.
   [[nodiscard]] std::vector<Pose> refined(const std::vector<Pose>& rough) const {
+    constexpr double kFarBehind = 6.0;
     std::vector<Pose> poses;
     for (const Pose& pose : rough) {
-      poses.push_back(poseFrom(pose.b_from_a));
+      if (pose.quality.cost_mm2 < kFarBehind * std::max(rough.front().quality.cost_mm2, 0.05)) {
+        poses.push_back(poseFrom(pose.b_from_a));
+      }
     }
     return distinct(std::move(poses), poses.size());
   }
