@@ -219,7 +219,7 @@ double drawnClock(Flow& flow, double left_mm, double top_mm) {
 
 /// What was seen, one line a finding. @return bottom [mm]
 double findingRows(Flow& flow, double left_mm, double top_mm, bool paint) {
-  constexpr double kNameWidth = 23.0;
+  constexpr double kNameWidth = 26.0;
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
   double y = top_mm;
@@ -243,13 +243,13 @@ double findingRows(Flow& flow, double left_mm, double top_mm, bool paint) {
 
 void findingsSection(Flow& flow) {
   const Speech& say = flow.canvas.speech();
-  constexpr double kRowsLeft = page::kLeft + 124.0;
+  constexpr double kRowsLeft = page::kLeft + 122.0;
   constexpr double kDrawings_mm = 41.0;
   flow.need(5.2 + std::max(kDrawings_mm, findingRows(flow, kRowsLeft, 0.0, false)));
   const double start = flow.y;
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 5, say(phrase::kTissueHead));
   const double bars = tissueBars(flow, flow.y);
-  const double clock = drawnClock(flow, page::kLeft + 86.0, flow.y);
+  const double clock = drawnClock(flow, page::kLeft + 82.0, flow.y);
   const double rows = findingRows(flow, kRowsLeft, flow.y, true);
   flow.y = std::max({bars, clock, rows});
   flow.canvas.frame("findings", {page::kLeft, start, page::kContentWidth, flow.y - start});

@@ -17,9 +17,9 @@ struct SignatureRow {
 };
 
 constexpr double kWhatLeft = page::kLeft + 13.0;
-constexpr double kWhoLeft = page::kLeft + 88.0;
-constexpr double kWhenLeft = page::kLeft + 116.0;
-constexpr double kKeyLeft = page::kLeft + 150.0;
+constexpr double kWhoLeft = page::kLeft + 85.0;
+constexpr double kWhenLeft = page::kLeft + 112.0;
+constexpr double kKeyLeft = page::kLeft + 151.5;
 
 /// The first and last digits of a key or hash.
 QString shortKey(const std::string& key) {
