@@ -8,6 +8,8 @@
 namespace tarsus {
 namespace {
 
+constexpr std::string_view kScanHash = "Scan SHA-256";
+
 using Pairs = std::vector<std::pair<QString, QString>>;
 
 /// In groups of eight, so that it can be compared by eye and wraps.
@@ -25,9 +27,14 @@ QString groupedHash(const std::string& hash, const Speech& say) {
 Pairs qualityPairs(const ReportContent& content, const Speech& say) {
   Pairs pairs;
   for (const auto& [name, value] : content.quality) {
-    pairs.emplace_back(say.term(name), QString::fromStdString(value));
+    if (name == kScanHash) {
+      continue;  // a line of its own
+    }
+    pairs.emplace_back(say.sentence(name), say.sentence(value));
   }
-  pairs.emplace_back(say(phrase::kReferenceSkin), say.entered(content.measurement.method));
+  pairs.emplace_back(say(phrase::kReferenceSkin),
+                     content.measurement.method.empty() ? say(phrase::kNotRecorded)
+                                                        : say.sentence(content.measurement.method));
   pairs.emplace_back(say(phrase::kFit4Measurement),
                      say(content.fit_for_measurement ? phrase::kYes : phrase::kNo));
   return pairs;
@@ -68,13 +75,13 @@ void warningsAndReasons(Flow& flow) {
     paragraphOf(flow,
                 "refusal " + std::to_string(number++),
                 {{say(phrase::kUnfitReason) + say.colon(), type::kCell.asBold()},
-                 {QStringLiteral(" ") + QString::fromStdString(reason), type::kCell}});
+                 {QStringLiteral(" ") + say.sentence(reason), type::kCell}});
   }
   for (const Warning& warning : flow.content.measurement.warnings) {
     paragraphOf(flow,
                 "warning " + std::to_string(number++),
                 {{say(phrase::kNote), type::kCell.asBold()},
-                 {QLatin1Char(' ') + QString::fromStdString(warning.text), type::kCell}});
+                 {QLatin1Char(' ') + say.sentence(warning.text), type::kCell}});
   }
   if (number == 0) {
     paragraphOf(flow, "warnings", {{say(phrase::kNoWarnings), type::kCell}});
@@ -165,6 +172,11 @@ void qualitySection(Flow& flow) {
                 {{say(label), type::kCaption.in(ink::kGrey)},
                  {QLatin1Char(' ') + groupedHash(hash, say), type::kCaption}});
   };
+  for (const auto& [name, value] : flow.content.quality) {
+    if (name == kScanHash) {
+      hashLine("scan hash", phrase::kScanSha, value);
+    }
+  }
   hashLine("model hash", phrase::kModelSha, flow.content.model_sha256);
   if (isSigned(flow.content)) {
     hashLine("record hash", phrase::kRecordSha, flow.content.record_sha256);

@@ -39,8 +39,7 @@ double thumbnails(Flow& flow, const ReportComparison& comparison, double top_mm)
                         QString::number(later ? comparison.later_visit : comparison.earlier_visit),
                         scaleWords(scale, say));
     if (later && !comparison.earlier_in_later_px.empty()) {
-      words +=
-          QStringLiteral("; ") + say(phrase::kDashesAre, QString::number(comparison.earlier_visit));
+      words += say.semicolon() + say(phrase::kDashesAre, QString::number(comparison.earlier_visit));
     }
     y += canvas.paragraph({page::kLeft, y}, kThumbnailSide, {{words, type::kCaption}}) + 0.3;
     const QRectF box(page::kLeft, y, kThumbnailSide, kThumbnailSide);
@@ -243,7 +242,7 @@ std::vector<TextRun> registrationRuns(const ReportComparison& comparison, const 
     runs.push_back({say(phrase::kAccepted), style.asBold()});
   } else {
     runs.push_back({say(phrase::kRefused) + say.colon(), style.asBold()});
-    runs.push_back({QString::fromStdString(registration.refusal), style});
+    runs.push_back({say.sentence(registration.refusal), style});
   }
   return runs;
 }
@@ -255,7 +254,7 @@ double mapColumn(Flow& flow, const ReportComparison& comparison, double top_mm) 
   if (!comparison.result.map || comparison.change_map.width() == 0) {
     const std::vector<TextRun> runs{
         {say(phrase::kNoMap), type::kCaption.asBold()},
-        {say.colon() + QString::fromStdString(comparison.result.why_no_map), type::kCaption}};
+        {say.colon() + say.sentence(comparison.result.why_no_map), type::kCaption}};
     return top_mm + canvas.paragraph({kMapLeft, top_mm}, kChangeMapSide, runs);
   }
   const double scale = scaleOf(comparison.change_map, comparison.map_mm_per_px, kChangeMapSide);
@@ -276,7 +275,7 @@ double tableColumn(Flow& flow, const ReportComparison& comparison, double top_mm
   } else if (comparison.result.map) {
     const std::vector<TextRun> runs{
         {say(phrase::kNoSectors), type::kCaption.asBold()},
-        {say.colon() + QString::fromStdString(comparison.result.why_no_sectors), type::kCaption}};
+        {say.colon() + say.sentence(comparison.result.why_no_sectors), type::kCaption}};
     y += canvas.paragraph({kTableLeft, y}, width, runs) + 1.4;
   }
   return y + canvas.paragraph({kTableLeft, y}, width, registrationRuns(comparison, say));
@@ -292,7 +291,7 @@ void comparisonSection(Flow& flow) {
     flow.y += sectionHead(canvas, {page::kLeft, flow.y}, 8, say(phrase::kComparison));
     const QString why = flow.content.why_no_comparison.empty()
                             ? say(phrase::kNoComparison)
-                            : QString::fromStdString(flow.content.why_no_comparison);
+                            : say.sentence(flow.content.why_no_comparison);
     paragraphOf(flow, "comparison", {{why, type::kCell}});
     return;
   }

@@ -83,8 +83,8 @@ double stateColumn(PageCanvas& canvas, const ReportContent& content, double top_
   QString version = say(phrase::kVersion, QString::number(record.version));
   if (!content.amendments.empty()) {
     const auto count = static_cast<int>(content.amendments.size());
-    version += QLatin1Char(' ') + (count == 1 ? say(phrase::kOneAmendment)
-                                              : say(phrase::kAmendments, QString::number(count)));
+    version += say.gap() + (count == 1 ? say(phrase::kOneAmendment)
+                                       : say(phrase::kAmendments, QString::number(count)));
   }
   canvas.text({page::kRight, top_mm + 5.2 + id_mm}, version, style, Qt::AlignRight);
   return top_mm + 8.7 + id_mm;
@@ -136,14 +136,13 @@ double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_
   const Speech& say = canvas.speech();
   QStringList reasons;
   for (const std::string& reason : content.refusal_reasons) {
-    QString text = QString::fromStdString(reason);
-    while (text.endsWith(QLatin1Char('.'))) {
+    QString text = say.sentence(reason);
+    while (text.endsWith(QLatin1Char('.')) || text.endsWith(QChar(0x3002))) {
       text.chop(1);  // they are joined into one sentence
     }
     reasons << text;
   }
-  const QString why =
-      reasons.isEmpty() ? say(phrase::kNoReason) : reasons.join(QStringLiteral("; "));
+  const QString why = reasons.isEmpty() ? say(phrase::kNoReason) : reasons.join(say.semicolon());
   const std::vector<TextRun> runs{
       {say(phrase::kUnfitScan) + say.colon(), type::kWords.asBold()},
       {QLatin1Char(' ') + why + QLatin1Char('.') + QLatin1Char(' '), type::kWords},

@@ -16,9 +16,9 @@ struct Columns {
   double interval = page::kLeft + 121.0;
   // Where an earlier visit is there to compare with:
   double previous = 125.8;
-  double change = 149.6;
-  double sdc = 159.0;
-  double baseline = 178.0;
+  double change = 148.8;
+  double sdc = 157.0;
+  double baseline = 176.4;
   double percent = page::kRight - 1.0;
 };
 
@@ -110,8 +110,16 @@ void changeColumns(Flow& flow, const MeasurementRow& row, const Columns& at, dou
   PageCanvas& canvas = flow.canvas;
   const TextStyle quiet = type::kCell.in(ink::kFaint);
   canvas.text({at.previous, y}, cells.previous, type::kCell, Qt::AlignRight);
-  canvas.text({at.baseline, y}, cells.baseline, type::kCell, Qt::AlignRight);
-  canvas.text({at.percent, y}, cells.percent, type::kCell, Qt::AlignRight);
+  // A long pair of numbers takes smaller letters, never its neighbour's room.
+  const auto fitted = [&](double right, double left, const QString& text) {
+    TextStyle style = type::kCell;
+    while (style.size_pt > type::kSmall.size_pt && canvas.widthOf(text, style) > right - left) {
+      style.size_pt -= 0.5;
+    }
+    canvas.text({right, y}, text, style, Qt::AlignRight);
+  };
+  fitted(at.baseline, at.sdc + 0.8, cells.baseline);
+  fitted(at.percent, at.baseline + 1.4, cells.percent);
   canvas.text({at.sdc, y}, cells.sdc, type::kInterval, Qt::AlignRight);
   if (!cells.compared) {
     canvas.text({at.change, y}, cells.change, type::kCell, Qt::AlignRight);
@@ -247,8 +255,8 @@ QString earlierReasons(const Flow& flow) {
          {std::pair("volume_mm3", phrase::kVolume), std::pair("max_depth_mm", phrase::kDepth)}) {
       const auto found = visit->measurement.not_measurable.find(key);
       if (found != visit->measurement.not_measurable.end()) {
-        const QString what = say(name) + QStringLiteral(" (") +
-                             QString::fromStdString(found->second) + QLatin1Char(')');
+        const QString what =
+            say(name) + QStringLiteral(" (") + say.sentence(found->second) + QLatin1Char(')');
         const QString sentence = say(phrase::kAtVisitNot, QString::number(visit->number), what);
         if (!sentences.contains(sentence)) {
           sentences << sentence;

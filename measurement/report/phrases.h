@@ -2,12 +2,23 @@
 
 #include "measurement/report/speech.h"
 
+#include <optional>
+
 /// Every text of the report, in English, German, French, Spanish and Simplified Chinese.
 /// %1 ... stand for what is filled in. A missing translation does not compile.
 namespace tarsus::phrase {
 
 /// A word of the record's fields or of the scores; null where it is not known.
 [[nodiscard]] const Phrase* termNamed(std::string_view word);
+
+struct KnownSentence {
+  const Phrase* phrase = nullptr;
+  QStringList values;  ///< for %1, %2 ...
+};
+
+/// A sentence that measurement, comparison, reconstruction or scores wrote in English, with what
+/// is filled in; nothing where it is not known.
+[[nodiscard]] std::optional<KnownSentence> sentenceNamed(const QString& english);
 
 // clang-format off
 // Page
@@ -42,7 +53,7 @@ inline constexpr Phrase kReportMade{"Report made", "Bericht erstellt", "Rapport 
 inline constexpr Phrase kPatient{"Patient", "Patient/in", "Patient(e)", "Paciente", "患者"};
 inline constexpr Phrase kVisit{"Visit", "Visite", "Visite", "Visita", "就诊"};
 inline constexpr Phrase kBorn{"born %1", "geb. %1", "né(e) le %1", "nac. %1", "出生 %1"};
-inline constexpr Phrase kAge{"%1 y", "%1 J.", "%1 ans", "%1 años", "%1 岁"};
+inline constexpr Phrase kAge{"%1 y", "%1 J.", "%1 ans", "%1 años", "%1 岁"};
 inline constexpr Phrase kId{"ID %1", "Nr. %1", "n° %1", "n.º %1", "编号 %1"};
 inline constexpr Phrase kVisitOf{"%1 of %2", "%1 von %2", "%1 sur %2", "%1 de %2", "第 %1/%2 次"};
 inline constexpr Phrase kDay{"day %1", "Tag %1", "jour %1", "día %1", "第 %1 天"};
@@ -248,6 +259,7 @@ inline constexpr Phrase kReferenceSkin{"Reference skin", "Referenzhaut", "Peau d
 inline constexpr Phrase kFit4Measurement{"Fit for measurement", "Zum Messen geeignet", "Apte à la mesure", "Apto para medir", "适合测量"};
 inline constexpr Phrase kYes{"yes", "ja", "oui", "sí", "是"};
 inline constexpr Phrase kNo{"no", "nein", "non", "no", "否"};
+inline constexpr Phrase kScanSha{"scan SHA-256", "Aufnahme SHA-256", "numérisation SHA-256", "escaneo SHA-256", "扫描 SHA-256"};
 inline constexpr Phrase kModelSha{"model SHA-256", "Modell SHA-256", "modèle SHA-256", "modelo SHA-256", "模型 SHA-256"};
 inline constexpr Phrase kRecordSha{"record SHA-256", "Datensatz SHA-256", "dossier SHA-256", "registro SHA-256", "记录 SHA-256"};
 inline constexpr Phrase kMethodText{

@@ -74,7 +74,7 @@ QString reasonOf(const WoundMeasurement& m,
                  const Speech& say) {
   const auto found = m.not_measurable.find(key);
   if (found != m.not_measurable.end()) {
-    return QString::fromStdString(found->second);
+    return say.sentence(found->second);
   }
   return has_value ? QString() : say(phrase::kNoReason);
 }

@@ -18,6 +18,16 @@ QString capitalised(QString text) {
   return text;
 }
 
+/// A part that is absent is answered by "no", which agrees with any noun.
+QString meaningOf(const ScoreComponent& part, const Speech& say) {
+  const bool english = say.language() == ReportLanguage::English;
+  if (part.meaning == "none" && !english) {
+    return say(phrase::kNo);
+  }
+  const QString said = say.sentence(part.meaning);
+  return english ? QString(said).replace(QStringLiteral("cm2"), QStringLiteral("cm²")) : said;
+}
+
 /// "Site forefoot 0 · Neuropathy ? · ..."; what is missing is bold and underlined.
 std::vector<TextRun> componentRuns(const ScoreResult& score, const Speech& say) {
   std::vector<TextRun> runs;
@@ -31,7 +41,7 @@ std::vector<TextRun> componentRuns(const ScoreResult& score, const Speech& say) 
       continue;
     }
     runs.push_back(
-        {name + QLatin1Char(' ') + say.term(part.meaning) + QLatin1Char(' '), type::kCell});
+        {name + QLatin1Char(' ') + meaningOf(part, say) + QLatin1Char(' '), type::kCell});
     runs.push_back({QString::number(*part.points), type::kCell.asBold()});
   }
   return runs;
@@ -39,7 +49,7 @@ std::vector<TextRun> componentRuns(const ScoreResult& score, const Speech& say) 
 
 std::vector<TextRun> resultRuns(const ScoreResult& score, const Speech& say) {
   if (!score.outcome.empty()) {
-    return {{QString::fromStdString(score.outcome), type::kCell.asBold()}};
+    return {{say.sentence(score.outcome), type::kCell.asBold()}};
   }
   QStringList missing;
   for (const std::vector<std::string>* names : {&score.missing, &score.unconfirmed}) {
@@ -51,7 +61,7 @@ std::vector<TextRun> resultRuns(const ScoreResult& score, const Speech& say) {
   if (!why.isEmpty()) {
     why += say.colon() + say(phrase::kNotRecorded);
   } else {
-    why = QString::fromStdString(score.not_computable);
+    why = say.sentence(score.not_computable);
   }
   return {{say(phrase::kNotComputable), type::kCell.asBold()},
           {QLatin1Char('\n') + why, {8, 10, false, ink::kGrey}}};
@@ -61,7 +71,7 @@ void scoreRow(Flow& flow, const ScoreResult& score) {
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
   const double result_left = page::kRight - kResultWidth;
-  const std::vector<TextRun> title{{QString::fromStdString(score.title), type::kCell.asBold()}};
+  const std::vector<TextRun> title{{say.sentence(score.title), type::kCell.asBold()}};
   const std::vector<TextRun> parts = componentRuns(score, say);
   const std::vector<TextRun> result = resultRuns(score, say);
   const double height = std::max({canvas.paragraphHeight(kPartsLeft - page::kLeft - 2.0, title),

@@ -54,7 +54,7 @@ QString sinceSentence(const ReportContent& content,
   return say(phrase::kSinceSentence,
              QString::number(previous.number),
              days ? QString::number(*days) : QStringLiteral("?"),
-             clauses.join(QStringLiteral("; ")));
+             clauses.join(say.semicolon()));
 }
 
 /// Hours where more was lost than the last printed digit, runs of them joined: "4–5, 9".
@@ -101,14 +101,15 @@ QString sentenceInWords(const ReportContent& content,
   QStringList missing;
   for (const MeasurementRow& row : rows) {
     if (!row.reason.isEmpty()) {
-      missing << row.name.toLower();
+      // German writes its nouns with a capital inside a sentence too.
+      missing << (say.language() == ReportLanguage::German ? row.name : row.name.toLower());
     }
   }
   const auto count = static_cast<int>(rows.size());
   sentences << say(
       phrase::kMeasuredOf, QString::number(count - missing.size()), QString::number(count));
   if (!missing.isEmpty()) {
-    sentences << say(phrase::kNotMeasurableList, missing.join(QStringLiteral("; ")));
+    sentences << say(phrase::kNotMeasurableList, missing.join(say.semicolon()));
   }
   const MeasurementRow& mean = rowNamed(rows, "mean_depth_mm");
   if (mean.reason.isEmpty() && *content.measurement.mean_depth_mm < 4.0) {

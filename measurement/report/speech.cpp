@@ -4,6 +4,7 @@
 #include "measurement/report/phrases.h"
 
 #include <QDate>
+#include <QRegularExpression>
 
 #include <cmath>
 
@@ -37,6 +38,11 @@ QString Speech::signedNumber(double value, int decimals) const {
 }
 
 QString Speech::interval(const Interval& interval, double factor, int decimals) const {
+  if (interval.low < 0.0) {  // a dash between signs cannot be told from a minus
+    const QString dots = QStringLiteral(u"\u00A0\u2026\u00A0");
+    return signedNumber(interval.low * factor, decimals) + dots +
+           signedNumber(interval.high * factor, decimals);
+  }
   return number(interval.low * factor, decimals) + QChar(0x2013) +
          number(interval.high * factor, decimals);
 }
@@ -102,6 +108,26 @@ QString Speech::term(std::string_view word) const {
   return fromView(word).replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
+QString Speech::sentence(const std::string& english) const {
+  const QString text = QString::fromStdString(english);
+  const std::optional<phrase::KnownSentence> known = phrase::sentenceNamed(text);
+  if (!known) {
+    return phrase::termNamed(english) != nullptr ? term(english) : text;
+  }
+  QString said = (*this)(*known->phrase);
+  for (int i = 0; i < known->values.size(); ++i) {
+    QString value = known->values[i];
+    static const QRegularExpression kNumber(QStringLiteral("^-?[0-9]+\\.[0-9]+$"));
+    if (value.contains(kNumber)) {
+      value = number(value.toDouble(), value.size() - value.indexOf(QLatin1Char('.')) - 1);
+    } else {
+      value = sentence(value.toStdString());
+    }
+    said.replace(QLatin1Char('%') + QString::number(i + 1), value);
+  }
+  return said;
+}
+
 QString Speech::listed(const QStringList& parts) const {
   if (parts.size() < 2) {
     return parts.join(QString());
@@ -118,6 +144,17 @@ QString Speech::entered(const std::string& text) const {
 
 QString Speech::gap() const {
   return language_ == ReportLanguage::Chinese ? QString() : QStringLiteral(" ");
+}
+
+QString Speech::semicolon() const {
+  switch (language_) {
+    case ReportLanguage::Chinese:
+      return QString(QChar(0xFF1B));
+    case ReportLanguage::French:
+      return QString(QChar(0x202F)) + QStringLiteral("; ");
+    default:
+      return QStringLiteral("; ");
+  }
 }
 
 QString Speech::colon() const {

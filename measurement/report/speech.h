@@ -70,6 +70,8 @@ class Speech {
   [[nodiscard]] QString dateTime(const std::string& iso_8601) const;
   /// A word of the record or of a score, where it is known; else the word itself, readable.
   [[nodiscard]] QString term(std::string_view word) const;
+  /// A sentence of the measurement (a reason, a warning), where it is known; else as it stands.
+  [[nodiscard]] QString sentence(const std::string& english) const;
   /// "a, b and c".
   [[nodiscard]] QString listed(const QStringList& parts) const;
   /// What a person typed; empty: "not recorded".
@@ -78,6 +80,8 @@ class Speech {
   [[nodiscard]] QString gap() const;
   /// Before what explains: ": ", in French with its space, in Chinese the full-width mark.
   [[nodiscard]] QString colon() const;
+  /// Between two parts of a list that themselves hold commas.
+  [[nodiscard]] QString semicolon() const;
 
  private:
   ReportLanguage language_;

@@ -416,6 +416,10 @@ double timeRow(Flow& flow, double top_mm, const TimeAxis& time) {
   }
   const double y = top_mm + 9.0;
   canvas.text({page::kLeft, y - 2.4}, say(phrase::kEvents), grey);
+  if (flow.content.events.empty()) {
+    canvas.text({kPlotLeft, y - 2.4}, say(phrase::kNotRecorded), grey);
+    return y + 2.4;
+  }
   canvas.line({kPlotLeft, y}, {kPlotRight, y}, 0.25, ink::kBlack);
   char letter = 'a';
   double free_from = 0.0;  // letters of one day stand side by side
@@ -519,7 +523,7 @@ std::vector<TextRun> eventRuns(const ReportContent& content, const Speech& say) 
   for (const ReportEvent* event : shown) {
     runs.push_back({QString(QLatin1Char(letter++)), type::kCaption.asBold()});
     runs.push_back(
-        {QLatin1Char(' ') + QString::fromStdString(event->text) +
+        {QLatin1Char(' ') + say.term(event->text) +
              (event == shown.back() ? QStringLiteral(". ") : QStringLiteral(u" \u00B7 ")),
          type::kCaption});
   }

@@ -78,7 +78,7 @@ void addVisits(ReportContent& content, int visits) {
     if (i == 1 && visits > 2) {
       for (const char* key :
            {"volume_mm3", "volume_above_mm3", "mean_depth_mm", "max_depth_mm", "p99_depth_mm"}) {
-        visit.measurement.not_measurable[key] = "23 % of the bed not seen (limit 10 %)";
+        visit.measurement.not_measurable[key] = "23 % of the wound bed was not seen by the camera";
       }
     }
     visit.outline_mm = outlineGrown(k);
