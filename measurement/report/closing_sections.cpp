@@ -1,3 +1,4 @@
+#include "measurement/report/listed_phantoms.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/phrases.h"
 #include "measurement/report/sections.h"
@@ -130,6 +131,49 @@ NoteColumn noteColumn(const Phrase& name, const ReportText& text, const Speech& 
   return {head.join(QStringLiteral(u" \u00B7 ")), say.entered(text.text)};
 }
 
+/// Volume and depth of the listed phantoms beside what is true, and what is known of this camera.
+void phantomTable(Flow& flow) {
+  PageCanvas& canvas = flow.canvas;
+  const Speech& say = canvas.speech();
+  constexpr double kRow = 4.4;
+  const std::array columns{
+      page::kLeft + 96.0, page::kLeft + 122.0, page::kLeft + 150.0, page::kRight - 1.0};
+  const double head =
+      canvas.paragraphHeight(page::kContentWidth, {{say(phrase::kPhantoms), type::kCaption}});
+  const double height = head + 9.0 + kRow * static_cast<double>(kListedPhantoms.size());
+  flow.need(height);
+  const double start = flow.y;
+  const TextStyle grey = type::kCaption.in(ink::kGrey);
+  flow.y += canvas.paragraph(
+      {page::kLeft, flow.y}, page::kContentWidth, {{say(phrase::kPhantoms), grey}});
+  const std::array heads{
+      &phrase::kTrueVolume, &phrase::kError, &phrase::kTrueDepth, &phrase::kError};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    canvas.text({columns[i], flow.y}, say(*heads[i]), grey, Qt::AlignRight);
+  }
+  flow.y += 4.0;
+  canvas.line({page::kLeft, flow.y}, {page::kRight, flow.y}, 0.35, ink::kBlack);
+  for (const ListedPhantom& phantom : kListedPhantoms) {
+    const QString mm = QStringLiteral(u"\u00A0mm");
+    const std::array cells{
+        say.number(0.001 * phantom.true_volume_mm3, 2) + QChar(QChar::Nbsp) + say.millilitres(),
+        say.percent(say.signedNumber(phantom.volume_error_percent, 1)),
+        say.number(phantom.true_depth_mm, 1) + mm,
+        say.signedNumber(phantom.depth_error_mm, 2) + mm};
+    const TextStyle cell{8, 10, false, ink::kBlack};
+    canvas.text({page::kLeft, flow.y + 0.4}, say.term(phantom.name), cell);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      canvas.text({columns[i], flow.y + 0.4}, cells[i], cell, Qt::AlignRight);
+    }
+    flow.y += kRow;
+    canvas.line({page::kLeft, flow.y}, {page::kRight, flow.y}, 0.18, ink::kRule);
+  }
+  canvas.text({page::kLeft, flow.y + 0.6}, say(phrase::kNoPhantomCheck), type::kCaption);
+  flow.y += 5.0;
+  canvas.frame("phantoms", {page::kLeft, start, page::kContentWidth, flow.y - start});
+  flow.y += 1.0;
+}
+
 }  // namespace
 
 void notesSection(Flow& flow) {
@@ -150,7 +194,7 @@ void notesSection(Flow& flow) {
     for (std::size_t i = 0; i < 2; ++i) {
       const double x = page::kLeft + static_cast<double>(i) * kColumn;
       flow.canvas.text({x, top}, columns[i].head, type::kCaption.in(ink::kGrey));
-      const double room = page::kContentBottom - top - 4.0;
+      const double room = flow.canvas.contentBottom() - top - 4.0;
       const QString piece = fittingPart(flow.canvas, columns[i].rest, kWidth, room);
       height =
           std::max(height, flow.canvas.paragraph({x, top + 3.9}, kWidth, {{piece, type::kWords}}));
@@ -184,6 +228,7 @@ void qualitySection(Flow& flow) {
   flow.y += 0.8;
   paragraphOf(flow, "method", {{say(phrase::kMethodText), type::kCell}});
   warningsAndReasons(flow);
+  phantomTable(flow);
 }
 
 void aboutSection(Flow& flow) {

@@ -16,7 +16,7 @@ struct Flow {
 
   /// @return whether the page was turned
   bool need(double height_mm) {
-    if (y + height_mm <= page::kContentBottom) {
+    if (y + height_mm <= canvas.contentBottom()) {
       return false;
     }
     y = turn_page();

@@ -2,6 +2,7 @@
 
 #include "measurement/report/changes.h"
 #include "measurement/report/key_values.h"
+#include "measurement/report/other_wounds.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/phrases.h"
 #include "measurement/report/pictures.h"
@@ -158,9 +159,10 @@ double unfitNotice(PageCanvas& canvas, const ReportContent& content, double top_
 
 }  // namespace
 
-void frontPage(PageCanvas& canvas, const ReportContent& content) {
+bool frontPage(PageCanvas& canvas, const ReportContent& content) {
   const std::vector<MeasurementRow> rows = measurementRows(content.measurement, canvas.speech());
   double y = pageHead(canvas, content);
+  canvas.bookmark(1, canvas.speech()(phrase::kIdentity), y);
   y = content.record ? recordIdentity(canvas, content, y) : identity(canvas, content, y);
   if (!content.fit_for_measurement) {
     y = unfitNotice(canvas, content, y);
@@ -176,8 +178,9 @@ void frontPage(PageCanvas& canvas, const ReportContent& content) {
   const double close_bottom = closeViews(canvas, content, {page::kLeft + 37.6, y});
   y = std::max(foot_bottom, close_bottom) + page::kSectionGap;
   if (content.section && content.section->surface_mm.size() >= 2) {
-    sectionDrawing(canvas, content, y);
+    y = sectionDrawing(canvas, content, y) + page::kSectionGap;
   }
+  return otherWounds(canvas, content, y);
 }
 
 }  // namespace tarsus

@@ -5,6 +5,7 @@
 namespace tarsus {
 
 /// Page 1: whose wound, the key values, one sentence, the pictures. Starts no page of its own.
-void frontPage(PageCanvas& canvas, const ReportContent& content);
+/// @return false where the other wounds of the visit found no room
+bool frontPage(PageCanvas& canvas, const ReportContent& content);
 
 }  // namespace tarsus

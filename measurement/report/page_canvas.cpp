@@ -101,14 +101,31 @@ std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
 
 }  // namespace
 
-PageCanvas::PageCanvas(QPdfWriter& writer, const Speech& speech)
+PageCanvas::PageCanvas(QPdfWriter& writer, const Speech& speech, ReportPaper paper)
     : writer_(writer),
       speech_(speech),
       painter_(&writer),
       dots_per_mm_(writer.resolution() / kMmPerInch),
-      fonts_(allowedFonts()) {
+      fonts_(allowedFonts()),
+      paper_(paper) {
   painter_.setRenderHint(QPainter::LosslessImageRendering);
   painter_.setRenderHint(QPainter::Antialiasing);
+}
+
+double PageCanvas::paperHeight() const {
+  return paper_ == ReportPaper::A4 ? page::kHeight : page::kLetterHeight;
+}
+
+double PageCanvas::footerTop() const { return paperHeight() - page::kFooter; }
+
+void PageCanvas::bookmark(int number, const QString& title, double y_mm) {
+  const QString name = QString::number(number) + QStringLiteral("  ") + title;
+  const bool noted = std::ranges::any_of(bookmarks_, [&](const PdfBookmark& bookmark) {
+    return bookmark.title.startsWith(QString::number(number) + QLatin1Char(' '));
+  });
+  if (!noted) {
+    bookmarks_.push_back({name, page_, (paperHeight() - y_mm) / kMmPerPoint});
+  }
 }
 
 void PageCanvas::nextPage() {

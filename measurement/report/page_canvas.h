@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measurement/report/page_style.h"
+#include "measurement/report/pdf_bytes.h"
 #include "measurement/report/report.h"
 #include "measurement/report/speech.h"
 #include "reconstruction/scene/image.h"
@@ -19,9 +20,14 @@ namespace tarsus {
 /// where the named frames stand.
 class PageCanvas {
  public:
-  PageCanvas(QPdfWriter& writer, const Speech& speech);
+  PageCanvas(QPdfWriter& writer, const Speech& speech, ReportPaper paper);
 
   [[nodiscard]] const Speech& speech() const { return speech_; }
+
+  /// Where the content must end and the footer begins [mm], by the height of the paper.
+  [[nodiscard]] double contentBottom() const { return footerTop() - page::kAboveFooter; }
+  [[nodiscard]] double footerTop() const;
+  [[nodiscard]] double paperHeight() const;
 
   void nextPage();
   [[nodiscard]] int page() const { return page_; }
@@ -56,6 +62,9 @@ class PageCanvas {
 
   void frame(std::string name, const QRectF& box_mm);
   [[nodiscard]] const std::vector<ReportFrame>& frames() const { return frames_; }
+  /// A section begins here; its continuation on a later page is not noted again.
+  void bookmark(int number, const QString& title, double y_mm);
+  [[nodiscard]] const std::vector<PdfBookmark>& bookmarks() const { return bookmarks_; }
 
  private:
   [[nodiscard]] QFont fontOf(const TextStyle& style) const;
@@ -76,6 +85,8 @@ class PageCanvas {
   std::vector<QRawFont> fonts_;
   int page_ = 1;
   std::vector<ReportFrame> frames_;
+  ReportPaper paper_;
+  std::vector<PdfBookmark> bookmarks_;
 };
 
 /// Whether the report's fonts are really there: Qt takes any other font without a word.

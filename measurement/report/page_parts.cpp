@@ -68,6 +68,7 @@ double sectionHead(PageCanvas& canvas,
                    const QPointF& top_left_mm,
                    int number,
                    const QString& name) {
+  canvas.bookmark(number, name, top_left_mm.y());
   canvas.text(top_left_mm, QString::number(number), type::kHead.in(ink::kTeal));
   canvas.text(top_left_mm + QPointF(6.5, 0.0), name, type::kHead);
   return 5.2;
@@ -108,21 +109,28 @@ QString runningLine(const ReportContent& content, const QString& wound, const Sp
 
 }  // namespace
 
-QString woundLine(const ReportContent& content, const Speech& say) {
-  const ReportRecord& record = *content.record;
-  const Phrase& side = record.side == ReportSide::Left    ? phrase::kLeftFoot
-                       : record.side == ReportSide::Right ? phrase::kRightFoot
-                                                          : phrase::kSideNotRecorded;
-  QStringList place{say(side)};
-  for (const std::string& word : {record.surface, record.site}) {
+QString placeLine(int number,
+                  ReportSide side,
+                  std::initializer_list<std::string> words,
+                  const Speech& say) {
+  const Phrase& foot = side == ReportSide::Left    ? phrase::kLeftFoot
+                       : side == ReportSide::Right ? phrase::kRightFoot
+                                                   : phrase::kSideNotRecorded;
+  QStringList place{say(foot)};
+  for (const std::string& word : words) {
     if (!word.empty()) {
       place << say.term(word);
     }
   }
   const QString comma =
       say.language() == ReportLanguage::Chinese ? QString(QChar(0xFF0C)) : QStringLiteral(", ");
-  return say(phrase::kWoundName, QString::number(record.wound_number)) +
-         QStringLiteral(" \u00B7 ") + place.join(comma);
+  return say(phrase::kWoundName, QString::number(number)) + QStringLiteral(" \u00B7 ") +
+         place.join(comma);
+}
+
+QString woundLine(const ReportContent& content, const Speech& say) {
+  const ReportRecord& record = *content.record;
+  return placeLine(record.wound_number, record.side, {record.surface, record.site}, say);
 }
 
 double pageHead(PageCanvas& canvas, const ReportContent& content) {
@@ -130,9 +138,10 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
   const double top = page::kTop;
   const double badge_left = headBadges(canvas, content, top + 0.6);
   if (canvas.page() == 1) {
+    const bool bedside = content.form == ReportForm::Bedside;
     canvas.text({page::kLeft, top}, say(phrase::kTarsus), type::kTitle.in(ink::kTeal));
     const double x = page::kLeft + canvas.widthOf(say(phrase::kTarsus), type::kTitle) + 3.5;
-    canvas.text({x, top}, say(phrase::kWoundReport), type::kTitle);
+    canvas.text({x, top}, say(bedside ? phrase::kBedsideForm : phrase::kWoundReport), type::kTitle);
     canvas.line({page::kLeft, top + 6.6}, {page::kRight, top + 6.6}, 0.35, ink::kBlack);
   } else {
     // The whole line stands on page 1; here it only says whose page this is.
@@ -169,7 +178,7 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
 
 void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages) {
   const Speech& say = canvas.speech();
-  const double top = page::kFooterTop;
+  const double top = canvas.footerTop();
   canvas.line({page::kLeft, top}, {page::kRight, top}, 0.18, ink::kGrey);
   // As narrow as two lines allow, wider where a language needs it.
   const std::vector<TextRun> use{{say(phrase::kResearchUse), type::kSmall.in(ink::kBlack)}};

@@ -2,6 +2,9 @@
 
 #include "measurement/report/page_canvas.h"
 
+#include <initializer_list>
+#include <string>
+
 namespace tarsus {
 
 /// "4   Measurements": number in teal. @return the height used [mm]
@@ -24,6 +27,11 @@ double badge(PageCanvas& canvas, const QPointF& right_top_mm, const QString& tex
 /// "SIGNED" or "DRAFT"; the former never without the record's hash.
 double stateBadge(PageCanvas& canvas, const ReportContent& content, const QPointF& right_top_mm);
 
+/// "W2 · right foot, plantar, heel".
+[[nodiscard]] QString placeLine(int number,
+                                ReportSide side,
+                                std::initializer_list<std::string> words,
+                                const Speech& say);
 /// "W1 · right foot, plantar, metatarsal head 2"; needs a record.
 [[nodiscard]] QString woundLine(const ReportContent& content, const Speech& say);
 

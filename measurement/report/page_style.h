@@ -6,15 +6,16 @@
 namespace tarsus {
 
 /// A4 upright [mm]: left 18 for punch holes, right 14; the content box ends where the footer
-/// begins.
+/// begins. US Letter is wider, which is not used, and 17.6 mm less high.
 namespace page {
 inline constexpr double kWidth = 210.0;
 inline constexpr double kHeight = 297.0;
 inline constexpr double kLeft = 18.0;
 inline constexpr double kRight = 196.0;
 inline constexpr double kTop = 11.0;
-inline constexpr double kFooterTop = 277.8;
-inline constexpr double kContentBottom = 274.5;
+inline constexpr double kLetterHeight = 279.4;
+inline constexpr double kFooter = 19.2;      ///< from its rule to the edge of the paper
+inline constexpr double kAboveFooter = 3.3;  ///< free between content and footer
 inline constexpr double kContentWidth = kRight - kLeft;
 inline constexpr double kSectionGap = 3.6;
 }  // namespace page

@@ -48,6 +48,7 @@ inline constexpr Phrase kOneAmendment{"(1 amendment)", "(1 Nachtrag)", "(1 amend
 inline constexpr Phrase kAmendments{"(%1 amendments)", "(%1 Nachträge)", "(%1 amendements)", "(%1 enmiendas)", "（%1 次修订）"};
 
 // 1 Identity, key values, sentence
+inline constexpr Phrase kIdentity{"Identity and key values", "Angaben und Hauptwerte", "Identité et valeurs principales", "Identidad y valores principales", "身份与主要数值"};
 inline constexpr Phrase kWound{"Wound", "Wunde", "Plaie", "Herida", "创面"};
 inline constexpr Phrase kReportMade{"Report made", "Bericht erstellt", "Rapport établi", "Informe creado", "报告生成"};
 inline constexpr Phrase kPatient{"Patient", "Patient/in", "Patient(e)", "Paciente", "患者"};
@@ -121,7 +122,33 @@ inline constexpr Phrase kNoClock{"; no clock: heel and toes were not marked on t
 inline constexpr Phrase kContoursEvery{"Contours every %1 mm.", "Höhenlinien je %1 mm.", "Isolignes tous les %1 mm.", "Isolíneas cada %1 mm.", "等深线间隔 %1 mm。"};
 inline constexpr Phrase kSection{"Section A–A′ through the deepest point", "Schnitt A–A′ durch die tiefste Stelle", "Coupe A–A′ par le point le plus profond", "Corte A–A′ por el punto más profundo", "经最深点的剖面 A–A′"};
 inline constexpr Phrase kSectionNote{"%1 : 1 in both directions; not exaggerated. Levelled on the skin curve K–K′. Solid: wound bed and skin. Dashed: reference skin.", "%1 : 1 in beiden Richtungen; nicht überhöht. Ausgerichtet an der Hautkurve K–K′. Durchgezogen: Wundgrund und Haut. Gestrichelt: Referenzhaut.", "%1 : 1 dans les deux sens ; sans exagération. Nivelée sur la courbe cutanée K–K′. Trait plein : fond et peau. Tirets : peau de référence.", "%1 : 1 en ambas direcciones; sin exagerar. Nivelado en la curva de piel K–K′. Continua: lecho y piel. Discontinua: piel de referencia.", "两方向均为 %1 : 1，未夸大。以皮肤曲线 K–K′ 找平。实线：创基与皮肤；虚线：参考皮面。"};
+inline constexpr Phrase kSectionFirst{"Dotted: bed at visit %1.", "Punktiert: Grund bei Visite %1.", "Pointillé : fond à la visite %1.", "Punteada: lecho en la visita %1.", "点线：第 %1 次创基。"};
 inline constexpr Phrase kUnseenLarger{"Part of the bed was not seen; there the true value may be larger.", "Ein Teil des Wundgrunds wurde nicht gesehen; dort kann der wahre Wert größer sein.", "Une partie du fond n’a pas été vue ; la valeur vraie peut y être plus grande.", "Parte del lecho no se vio; allí el valor real puede ser mayor.", "部分创基未见到；该处真实值可能更大。"};
+
+// The other wounds of the visit
+inline constexpr Phrase kOtherWound{"Other wound", "Weitere Wunde", "Autre plaie", "Otra herida", "其他创面"};
+inline constexpr Phrase kOtherReport{"Pictures %1 : 1. In full in its own report, %2.", "Bilder %1 : 1. Vollständig im eigenen Bericht %2.", "Images %1 : 1. Détails dans son propre rapport, %2.", "Imágenes %1 : 1. Completo en su propio informe, %2.", "图像 %1 : 1。详见其单独报告 %2。"};
+inline constexpr Phrase kMoreWounds{"and %1 more", "und %1 weitere", "et %1 de plus", "y %1 más", "另有 %1 处"};
+
+// The bedside form
+inline constexpr Phrase kBedsideForm{"Bedside form", "Formular am Krankenbett", "Fiche au lit du patient", "Ficha de cabecera", "床旁表单"};
+inline constexpr Phrase kNinetyFive{"95 %: %1", "95 %: %1", "95 % : %1", "95 %: %1", "95%：%1"};
+inline constexpr Phrase kSinceVisitFrom{"%1 since visit %2 (%3)", "%1 seit Visite %2 (%3)", "%1 depuis la visite %2 (%3)", "%1 desde la visita %2 (%3)", "%1 较第 %2 次（%3）"};
+inline constexpr Phrase kTissueExudate{"tissue, exudate", "Gewebe, Exsudat", "tissus, exsudat", "tejido, exudado", "组织、渗液"};
+inline constexpr Phrase kInfectionSigns{"infection signs", "Infektionszeichen", "signes d’infection", "signos de infección", "感染体征"};
+inline constexpr Phrase kStillMissing{"still missing", "fehlt noch", "manque encore", "falta aún", "尚缺"};
+inline constexpr Phrase kNextVisit{"next visit", "nächste Visite", "prochaine visite", "próxima visita", "下次就诊"};
+inline constexpr Phrase kWithScan{"with scan", "mit Aufnahme", "avec numérisation", "con escaneo", "含扫描"};
+inline constexpr Phrase kByHand{"notes by hand", "Notizen von Hand", "notes à la main", "notas a mano", "手写备注"};
+inline constexpr Phrase kNameTimeSign{"name, time, signature", "Name, Zeit, Unterschrift", "nom, heure, signature", "nombre, hora, firma", "姓名、时间、签名"};
+inline constexpr Phrase kFoam{"foam", "Schaum", "mousse", "espuma", "泡沫"};
+inline constexpr Phrase kAlginate{"alginate", "Alginat", "alginate", "alginato", "藻酸盐"};
+inline constexpr Phrase kHydrofibre{"hydrofibre", "Hydrofaser", "hydrofibre", "hidrofibra", "亲水纤维"};
+inline constexpr Phrase kOtherBox{"other: ____________", "anderes: ____________", "autre : ____________", "otro: ____________", "其他：____________"};
+inline constexpr Phrase kCast{"cast", "Gips", "plâtre", "yeso", "石膏"};
+inline constexpr Phrase kWalker{"walker", "Orthese", "botte", "bota", "步行靴"};
+inline constexpr Phrase kFelt{"felt", "Filz", "feutre", "fieltro", "毛毡"};
+inline constexpr Phrase kShoe{"shoe", "Schuh", "chaussure", "zapato", "鞋"};
 
 // 4 Measurements
 inline constexpr Phrase kMeasurements{"Measurements", "Messwerte", "Mesures", "Mediciones", "测量值"};
@@ -268,6 +295,11 @@ inline constexpr Phrase kMethodText{
   "Le pied a été reconstruit à partir d’une caméra de profondeur en une seule surface colorée. Le contour de la plaie y a été tracé et la surface découpée exactement selon lui. La peau de référence prolonge la peau saine extérieure à la courbe cutanée au-dessus de la plaie en suivant la courbure du pied. Le volume est compris entre fond et peau de référence ; la profondeur est prise selon la normale de celle-ci.",
   "El pie se reconstruyó a partir de una cámara de profundidad como una sola superficie en color. Sobre ella se trazó el contorno de la herida y la superficie se cortó exactamente por él. La piel de referencia continúa la piel sana exterior a la curva de piel sobre la herida, siguiendo la curvatura del pie. El volumen está entre lecho y piel de referencia; la profundidad se toma según la normal de esta.",
   "足部由深度相机扫描重建为一个彩色曲面。创面轮廓在曲面上描出，曲面沿轮廓精确切开。参考皮面将皮肤曲线外的健康皮肤顺足部曲率延续到创面之上。容积为创基与参考皮面之间的体积；深度沿参考皮面法线测量。"};
+inline constexpr Phrase kPhantoms{"accuracy on the listed phantoms: computer-made feet, 600 simulated frames, true outline and skin", "Genauigkeit an den aufgeführten Phantomen: Füße vom Rechner, 600 simulierte Bilder, wahrer Umriss und wahre Haut", "exactitude sur les fantômes cités : pieds calculés, 600 images simulées, contour et peau vrais", "exactitud en los fantomas citados: pies por ordenador, 600 imágenes simuladas, contorno y piel verdaderos", "所列体模的准确度：计算机生成的足，600 帧模拟，真实轮廓与皮肤"};
+inline constexpr Phrase kTrueVolume{"true volume", "wahres Volumen", "volume vrai", "volumen real", "真实容积"};
+inline constexpr Phrase kTrueDepth{"true depth", "wahre Tiefe", "profondeur vraie", "profundidad real", "真实深度"};
+inline constexpr Phrase kError{"error", "Fehler", "erreur", "error", "误差"};
+inline constexpr Phrase kNoPhantomCheck{"This camera: no phantom check recorded.", "Diese Kamera: keine Phantomprüfung erfasst.", "Cette caméra : aucun contrôle sur fantôme enregistré.", "Esta cámara: ninguna comprobación con fantoma registrada.", "本相机：未记录体模检查。"};
 inline constexpr Phrase kUnfitReason{"Not fit for measurement", "Zum Messen ungeeignet", "Impropre à la mesure", "No apto para medir", "不适合测量"};
 inline constexpr Phrase kNote{"Note.", "Hinweis.", "Remarque.", "Nota.", "注意："};
 inline constexpr Phrase kNoWarnings{"No warnings.", "Keine Warnungen.", "Aucun avertissement.", "Sin advertencias.", "无警告。"};

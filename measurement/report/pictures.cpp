@@ -27,13 +27,15 @@ bool pictureOrWords(PageCanvas& canvas, const ColorImage& image, const QRectF& b
   return false;
 }
 
+}  // namespace
+
 void textureView(PageCanvas& canvas, const ReportContent& content, const QRectF& box_mm) {
   const PictureMap map = mapOf(content.texture, box_mm);
   canvas.clip(box_mm);
   if (pictureOrWords(canvas, content.texture, box_mm)) {
     drawSkinCurve(canvas, map.closed(content.skin_curve_px));
     drawOutline(canvas, map.closed(content.outline_px));
-    scaleBar(canvas, box_mm, closePrintScale(content));
+    scaleBar(canvas, box_mm, closePrintScale(content) * box_mm.width() / kCloseSide);
   }
   canvas.unclip();
   if (content.oriented) {
@@ -41,6 +43,8 @@ void textureView(PageCanvas& canvas, const ReportContent& content, const QRectF&
   }
   pictureEdge(canvas, box_mm);
 }
+
+namespace {
 
 void drawContours(PageCanvas& canvas, const ReportContent& content, const PictureMap& map) {
   QPainterPath lines;
@@ -104,6 +108,8 @@ void depthLabel(PageCanvas& canvas,
   canvas.haloText({right, y}, text, type::kCell.asBold(), Qt::AlignRight);
 }
 
+}  // namespace
+
 void depthView(PageCanvas& canvas, const ReportContent& content, const QRectF& box_mm) {
   const PictureMap map = mapOf(content.depth_map, box_mm);
   canvas.clip(box_mm);
@@ -118,7 +124,7 @@ void depthView(PageCanvas& canvas, const ReportContent& content, const QRectF& b
       drawCross(canvas, map.at(*content.deepest_px));
       depthLabel(canvas, content, map, box_mm);
     }
-    scaleBar(canvas, box_mm, closePrintScale(content));
+    scaleBar(canvas, box_mm, closePrintScale(content) * box_mm.width() / kCloseSide);
   }
   canvas.unclip();
   if (content.oriented) {
@@ -148,7 +154,6 @@ void depthLegend(PageCanvas& canvas, const ReportContent& content, const QRectF&
   }
 }
 
-/// Samples of the lines with their names. @return bottom [mm]
 double legendLine(PageCanvas& canvas, const ReportContent& content, const QPointF& top_left_mm) {
   double x = top_left_mm.x();
   const double y = top_left_mm.y() + 1.75;
@@ -183,8 +188,7 @@ double legendLine(PageCanvas& canvas, const ReportContent& content, const QPoint
   return top_left_mm.y() + 3.5;
 }
 
-QString closeCaption(const ReportContent& content, const Speech& say) {
-  const double scale = closePrintScale(content);
+QString closeCaption(const ReportContent& content, const Speech& say, double scale) {
   QString text = say(phrase::kPicturesAt, ratioText(scale, say));
   text += content.oriented ? say(phrase::kClockIs) : say(phrase::kNoClock);
   if (!content.contours_px.empty()) {
@@ -193,8 +197,6 @@ QString closeCaption(const ReportContent& content, const Speech& say) {
   }
   return text;
 }
-
-}  // namespace
 
 double closePrintScale(const ReportContent& content) {
   const double skin_mm = content.texture.width() * content.close_mm_per_px;
@@ -253,8 +255,9 @@ double closeViews(PageCanvas& canvas, const ReportContent& content, const QPoint
     canvas.frame("depth legend", {bar.left() - 1.0, right.top(), 9.0, kCloseSide});
   }
   y = legendLine(canvas, content, {left.left(), left.bottom() + 1.2});
-  canvas.text(
-      {left.left(), y}, closeCaption(content, canvas.speech()), type::kCaption.in(ink::kGrey));
+  canvas.text({left.left(), y},
+              closeCaption(content, canvas.speech(), closePrintScale(content)),
+              type::kCaption.in(ink::kGrey));
   y += 3.6;
   canvas.frame("legend", {left.left(), left.bottom() + 1.2, 140.0, y - left.bottom() - 1.2});
   return y;

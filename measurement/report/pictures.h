@@ -16,6 +16,16 @@ double footMap(PageCanvas& canvas, const ReportContent& content, const QPointF& 
 /// Texture and depth close views, legend and captions. @return bottom [mm]
 double closeViews(PageCanvas& canvas, const ReportContent& content, const QPointF& top_left_mm);
 
+/// The two close views in a box of any size, with bar and clock; the caller frames them.
+void textureView(PageCanvas& canvas, const ReportContent& content, const QRectF& box_mm);
+void depthView(PageCanvas& canvas, const ReportContent& content, const QRectF& box_mm);
+/// The depth map's colours, upright.
+void depthLegend(PageCanvas& canvas, const ReportContent& content, const QRectF& bar_mm);
+/// Samples of the lines with their names. @return bottom [mm]
+double legendLine(PageCanvas& canvas, const ReportContent& content, const QPointF& top_left_mm);
+/// Scale, clock and contours in words, for views of that scale.
+[[nodiscard]] QString closeCaption(const ReportContent& content, const Speech& say, double scale);
+
 /// Section A-A' with equal scales. @return bottom [mm]
 double sectionDrawing(PageCanvas& canvas, const ReportContent& content, double top_mm);
 

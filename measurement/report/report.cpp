@@ -1,7 +1,9 @@
 #include "measurement/report/report.h"
 
+#include "measurement/report/bedside_form.h"
 #include "measurement/report/changes.h"
 #include "measurement/report/front_page.h"
+#include "measurement/report/other_wounds.h"
 #include "measurement/report/page_canvas.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/pdf_bytes.h"
@@ -14,6 +16,8 @@
 #include <QGuiApplication>
 #include <QHash>
 #include <QPageLayout>
+
+#include <array>
 
 namespace tarsus {
 namespace {
@@ -29,11 +33,13 @@ void fixHashOrder() {
 
 struct PrintedPdf {
   QByteArray pdf;
+  PdfFacts facts;
   std::vector<ReportFrame> frames;
   int pages = 0;
 };
 
-void sections(PageCanvas& canvas, const ReportContent& content, int pages) {
+/// @param has_all_wounds  false: page 1 had no room for the other wounds of the visit
+void sections(PageCanvas& canvas, const ReportContent& content, int pages, bool has_all_wounds) {
   const std::function<double()> turn_page = [&] {
     pageFoot(canvas, content, pages);
     canvas.nextPage();
@@ -51,6 +57,11 @@ void sections(PageCanvas& canvas, const ReportContent& content, int pages) {
     }
     flow.y = turn_page();
     notesSection(flow);
+    if (!has_all_wounds) {
+      flow.need(75.0);
+      otherWounds(canvas, content, flow.y);
+      flow.y += 72.0;
+    }
   }
   qualitySection(flow);
   if (content.record) {
@@ -60,7 +71,7 @@ void sections(PageCanvas& canvas, const ReportContent& content, int pages) {
   pageFoot(canvas, content, pages);
 }
 
-/// "Wound report TS-0007-W1-V4 v2": never the patient's name, which file managers would show.
+/// "Wound report TS-0007-W1-V4 v2".
 QString documentTitle(const ReportContent& content, const Speech& say) {
   QString title = say(phrase::kWoundReport);
   if (content.record) {
@@ -70,25 +81,65 @@ QString documentTitle(const ReportContent& content, const Speech& say) {
   return title;
 }
 
+/// Who signed last.
+QString authorOf(const ReportContent& content) {
+  QString author;
+  for (const ReportSignature& signature : content.signatures) {
+    if (isSigned(content) && signature.step == SignatureStep::Signed) {
+      author = QString::fromStdString(signature.who);
+    }
+  }
+  return author;
+}
+
+/// "Wound W1 · Visit 4, 5 Oct 2026".
+QString subjectOf(const ReportContent& content, const Speech& say) {
+  if (!content.record) {
+    return say(phrase::kMeasurements);
+  }
+  const int visit = content.visits.empty() ? 1 : content.visits.back().number;
+  return say(phrase::kWound) + QLatin1Char(' ') +
+         say(phrase::kWoundName, QString::number(content.record->wound_number)) +
+         QStringLiteral(u" \u00B7 ") +
+         say(phrase::kVisitPicture, QString::number(visit), say.date(content.record->visit_time));
+}
+
+PdfFacts factsOf(const ReportContent& content, const Speech& say) {
+  constexpr std::array kTags{"en", "de", "fr", "es", "zh-CN"};
+  PdfFacts facts;
+  facts.title = documentTitle(content, say);
+  facts.author = authorOf(content);
+  facts.subject = subjectOf(content, say);
+  facts.creator = say(phrase::kProgram, QString::fromStdString(content.version));
+  facts.created = content.created;
+  facts.language = kTags.at(static_cast<std::size_t>(content.language));
+  return facts;
+}
+
 PrintedPdf print(const ReportContent& content, int pages) {
   const Speech say(content.language);
   PrintedPdf result;
+  result.facts = factsOf(content, say);
   QBuffer buffer(&result.pdf);
   buffer.open(QIODevice::WriteOnly);
   {
     QPdfWriter writer(&buffer);
     writer.setPdfVersion(QPagedPaintDevice::PdfVersion_A1b);
     writer.setResolution(1200);
-    writer.setPageLayout(QPageLayout(QPageSize(QPageSize::A4), QPageLayout::Portrait, QMarginsF()));
-    const QString title = documentTitle(content, say);
-    const QString creator = say(phrase::kProgram, QString::fromStdString(content.version));
-    writer.setTitle(title);
-    writer.setCreator(creator);
-    writer.setDocumentXmpMetadata(xmpMetadata(title, creator, content.created));
-    PageCanvas canvas(writer, say);
-    frontPage(canvas, content);
-    sections(canvas, content, pages);
+    const QPageSize paper(content.paper == ReportPaper::A4 ? QPageSize::A4 : QPageSize::Letter);
+    writer.setPageLayout(QPageLayout(paper, QPageLayout::Portrait, QMarginsF()));
+    writer.setTitle(result.facts.title);
+    writer.setCreator(result.facts.creator);
+    writer.setDocumentXmpMetadata(xmpMetadata(result.facts));
+    PageCanvas canvas(writer, say, content.paper);
+    if (content.form == ReportForm::Bedside) {
+      bedsideForm(canvas, content);
+    } else {
+      const bool has_all_wounds = frontPage(canvas, content);
+      sections(canvas, content, pages, has_all_wounds);
+    }
     result.frames = canvas.frames();
+    result.facts.bookmarks = canvas.bookmarks();
     result.pages = canvas.page();
   }
   return result;
@@ -97,6 +148,7 @@ PrintedPdf print(const ReportContent& content, int pages) {
 /// What printing needs beside the content.
 Expected<void> prepare(const ReportContent& content) {
   TARSUS_REQUIRE(qGuiApp != nullptr, "a report needs a QGuiApplication for its fonts");
+  TARSUS_REQUIRE(content.record || content.form == ReportForm::Full, "a form is a record's");
   TARSUS_REQUIRE(content.record || !content.title_line.empty(), "a report says whose it is");
   fixHashOrder();
   return checkFonts();
@@ -109,12 +161,15 @@ Expected<void> writeReport(const std::filesystem::path& path, const ReportConten
     return tl::unexpected(ready.error());
   }
   // Most reports have as many pages as this; else a second print puts the right number on them.
-  const int expected_pages = !content.record ? 2 : previousVisit(content) == nullptr ? 3 : 4;
+  const int expected_pages = content.form == ReportForm::Bedside ? 1
+                             : !content.record                   ? 2
+                             : previousVisit(content) == nullptr ? 3
+                                                                 : 4;
   PrintedPdf printed = print(content, expected_pages);
   if (printed.pages != expected_pages) {
     printed = print(content, printed.pages);
   }
-  const QByteArray pdf = withFixedDates(printed.pdf, content.created);
+  const QByteArray pdf = finishedPdf(printed.pdf, printed.facts);
   const std::span<const char> bytes(pdf.constData(), static_cast<std::size_t>(pdf.size()));
   return writeFileAtomically(path, std::as_bytes(bytes));
 }

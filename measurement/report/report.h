@@ -5,6 +5,8 @@
 #include "reconstruction/base/error.h"
 #include "reconstruction/scene/image.h"
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -22,7 +24,13 @@ struct SectionProfile {
   std::array<double, 2> skin_curve_at_mm{};   ///< where K is crossed, along
   double deepest_at_mm = 0.0;
   std::array<Eigen::Vector2d, 2> ends_px{};  ///< A and A' in the close view
+  Eigen::Isometry3d scan_from_section = Eigen::Isometry3d::Identity();  ///< x along, y outward
+  std::vector<Eigen::Vector2d> first_bed_mm;  ///< of the first visit, in the same cut; may be empty
 };
+
+/// The whole report, or one page to take to the bedside.
+enum class ReportForm { Full, Bedside };
+enum class ReportPaper { A4, Letter };
 
 /// What the report says, ready to print: every number is already measured.
 struct ReportContent {
@@ -55,6 +63,8 @@ struct ReportContent {
 
   // What a record adds. Without one, the draft of a single measurement is printed.
   ReportLanguage language = ReportLanguage::English;
+  ReportForm form = ReportForm::Full;  ///< the form needs a record
+  ReportPaper paper = ReportPaper::A4;
   std::optional<ReportRecord> record;
   std::vector<ReportVisit> visits;  ///< oldest first, this visit last; empty: as if the first
   std::vector<ReportEvent> events;  ///< in the order of time
@@ -67,6 +77,7 @@ struct ReportContent {
   std::vector<ReportSignature> signatures;
   std::vector<ReportAmendment> amendments;
   std::vector<ReportFile> files;
+  std::vector<OtherWound> other_wounds;  ///< of the same visit; a report prints two
   std::string record_sha256;  ///< of what was signed; empty before: then no page says "signed"
 };
 

@@ -135,6 +135,9 @@ double note(PageCanvas& canvas, const ReportContent& content, double scale, doub
                                 scale == std::floor(scale) ? 0
                                 : scale == 0.75            ? 2
                                                            : 1));
+  if (!content.section->first_bed_mm.empty() && !content.visits.empty()) {
+    text += say.gap() + say(phrase::kSectionFirst, QString::number(content.visits.front().number));
+  }
   if (content.measurement.unseen_bed_fraction.value_or(0.0) > 0.0) {
     text += say.gap() + say(phrase::kUnseenLarger);
   }
@@ -148,7 +151,7 @@ double sectionDrawing(PageCanvas& canvas, const ReportContent& content, double t
   canvas.text({page::kLeft, top_mm}, canvas.speech()(phrase::kSection), type::kCaption.asBold());
   double low = section.surface_mm.front().y();
   double high = low;
-  for (const auto* line : {&section.surface_mm, &section.reference_mm}) {
+  for (const auto* line : {&section.surface_mm, &section.reference_mm, &section.first_bed_mm}) {
     for (const Eigen::Vector2d& p : *line) {
       low = std::min(low, p.y());
       high = std::max(high, p.y());
@@ -170,6 +173,9 @@ double sectionDrawing(PageCanvas& canvas, const ReportContent& content, double t
   QPen dashed(ink::kBlack, 0.35, Qt::SolidLine, Qt::FlatCap);
   dashed.setDashPattern({5.0, 3.0});
   canvas.path(map.open(section.reference_mm), dashed);
+  QPen dotted(ink::kGrey, 0.35, Qt::SolidLine, Qt::FlatCap);
+  dotted.setDashPattern({1.2, 1.8});
+  canvas.path(map.open(section.first_bed_mm), dotted);
   canvas.path(map.open(section.surface_mm),
               QPen(ink::kBlack, 0.65, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   marks(canvas, section, map);

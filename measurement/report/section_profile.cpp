@@ -105,6 +105,29 @@ std::vector<Eigen::Vector2d> skinOver(const WoundSection& cut, double deepest_at
   return {};
 }
 
+constexpr double kNoHeight_mm = 40.0;  // the other side of a foot lies farther below
+
+/// Where the plane z = 0 cuts a triangle, by rising x.
+std::optional<std::array<Eigen::Vector2d, 2>> cutTriangle(
+    const std::array<Eigen::Vector3d, 3>& corners) {
+  std::array<Eigen::Vector2d, 2> ends;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < 3 && found < 2; ++i) {
+    const Eigen::Vector3d& p = corners[i];
+    const Eigen::Vector3d& q = corners[(i + 1) % 3];
+    if ((p.z() < 0.0) != (q.z() < 0.0)) {
+      ends[found++] = (p + p.z() / (p.z() - q.z()) * (q - p)).head<2>();
+    }
+  }
+  if (found < 2) {
+    return std::nullopt;
+  }
+  if (ends[1].x() < ends[0].x()) {
+    std::swap(ends[0], ends[1]);
+  }
+  return ends;
+}
+
 }  // namespace
 
 std::optional<SectionProfile> sectionForReport(const TexturedMesh& foot,
@@ -135,6 +158,7 @@ std::optional<SectionProfile> sectionForReport(const TexturedMesh& foot,
   const Eigen::Isometry3d section_from_scan = cut->scan_from_section.inverse();
   const auto along = [&](const Eigen::Vector3d& p) { return (section_from_scan * p).x(); };
   SectionProfile section;
+  section.scan_from_section = cut->scan_from_section;
   section.deepest_at_mm = along(*wound.numbers.max_depth_at_mm);
   section.outline_at_mm = {along((*c)[0]), along((*c)[1])};
   section.skin_curve_at_mm = {along((*k)[0]), along((*k)[1])};
@@ -148,6 +172,46 @@ std::optional<SectionProfile> sectionForReport(const TexturedMesh& foot,
   section.ends_px = {view.project(cut->surface.front().front().position_mm, options),
                      view.project(cut->surface.front().back().position_mm, options)};
   return section;
+}
+
+std::vector<Eigen::Vector2d> lineInSection(const TriangleMesh& surface,
+                                           const SectionProfile& section) {
+  constexpr double kStep_mm = 0.5;
+  const double from = section.skin_curve_at_mm[0];
+  const double to = section.skin_curve_at_mm[1];
+  const int count = std::max(0, static_cast<int>((to - from) / kStep_mm) + 1);
+  std::vector<double> highest(static_cast<std::size_t>(count), -kNoHeight_mm);
+  const Eigen::Isometry3d section_from_scan = section.scan_from_section.inverse();
+  std::vector<Eigen::Vector3d> flat;
+  flat.reserve(surface.vertices.size());
+  for (const Eigen::Vector3f& vertex : surface.vertices) {
+    flat.push_back(section_from_scan * vertex.cast<double>());
+  }
+  for (const Eigen::Vector3i& face : surface.faces) {
+    const auto ends = cutTriangle({flat[static_cast<std::size_t>(face[0])],
+                                   flat[static_cast<std::size_t>(face[1])],
+                                   flat[static_cast<std::size_t>(face[2])]});
+    if (!ends) {
+      continue;
+    }
+    const auto& [a, b] = *ends;  // by rising x
+    for (int i = std::max(0, static_cast<int>(std::ceil((a.x() - from) / kStep_mm)));
+         i < count && from + i * kStep_mm <= b.x();
+         ++i) {
+      const double run = b.x() - a.x();
+      const double t = run > 0.0 ? (from + i * kStep_mm - a.x()) / run : 0.0;
+      double& height = highest[static_cast<std::size_t>(i)];
+      height = std::max(height, a.y() + t * (b.y() - a.y()));
+    }
+  }
+  std::vector<Eigen::Vector2d> line;
+  for (int i = 0; i < count; ++i) {
+    const double height = highest[static_cast<std::size_t>(i)];
+    if (height > -kNoHeight_mm) {
+      line.emplace_back(from + i * kStep_mm, height);
+    }
+  }
+  return line;
 }
 
 }  // namespace tarsus

@@ -17,4 +17,9 @@ namespace tarsus {
                                                              const ViewFrame& view,
                                                              const PictureOptions& options);
 
+/// The outermost line in which the section's plane cuts another surface, between K and K'.
+/// @param surface  in the scan frame of the section
+[[nodiscard]] std::vector<Eigen::Vector2d> lineInSection(const TriangleMesh& surface,
+                                                         const SectionProfile& section);
+
 }  // namespace tarsus

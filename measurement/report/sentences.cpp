@@ -46,6 +46,8 @@ constexpr Phrase kSentences[] = {
   {"A pair of points set by hand lies %1 mm apart once the skin fits: check the pairs.", "Ein von Hand gesetztes Punktpaar liegt %1 mm auseinander, wenn die Haut passt: die Paare prüfen.", "Une paire de points placée à la main est distante de %1 mm une fois la peau recalée : vérifier les paires.", "Un par de puntos puesto a mano dista %1 mm una vez encajada la piel: compruebe los pares.", "皮肤吻合后，一对手动点相距 %1 mm：请检查点对。"},
   // Quality of the scan
   {"%1 of %2", "%1 von %2", "%1 sur %2", "%1 de %2", "%1/%2"},
+  {"%1 mm", "%1 mm", "%1 mm", "%1 mm", "%1 mm"},
+  {"%1 %", "%1 %", "%1 %", "%1 %", "%1%"},
   {"Frames placed", "Eingeordnete Bilder", "Images placées", "Imágenes situadas", "已定位帧"},
   {"Tracking residual", "Restfehler der Verfolgung", "Résidu du suivi", "Residuo de seguimiento", "跟踪残差"},
   {"Voxel size", "Voxelgröße", "Taille du voxel", "Tamaño de vóxel", "体素尺寸"},
@@ -81,8 +83,9 @@ std::optional<KnownSentence> sentenceNamed(const QString& english) {
       continue;
     }
     QString expression = QRegularExpression::escape(pattern);
-    // "600 of 600" and nothing else that holds an "of".
-    const QString slot = said == "%1 of %2" ? QStringLiteral("([0-9]+)") : QStringLiteral("(.+)");
+    // "600 of 600" and nothing else that holds an "of", "0.65 mm" but no sentence that ends so.
+    const QString slot = said.size() < 9 && said.starts_with('%') ? QStringLiteral("([0-9.]+)")
+                                                                  : QStringLiteral("(.+)");
     expression.replace(QRegularExpression(QStringLiteral("\\\\%[1-9]")), slot);
     const QRegularExpression whole(QStringLiteral("^") + expression + QStringLiteral("$"));
     if (const auto match = whole.match(english); match.hasMatch()) {

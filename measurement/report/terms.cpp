@@ -163,6 +163,11 @@ constexpr Term kTerms[] = {
   {"gangrene", {"gangrene", "Gangrän", "gangrène", "gangrena", "坏疽"}},
   {"foot_infection", {"foot infection", "Fußinfektion", "infection du pied", "infección del pie", "足部感染"}},
   {"one of abi, ankle_mmhg, toe_mmhg, tcpo2_mmhg", {"one of ABI, ankle or toe pressure, TcPO2", "eines von KAI, Knöchel- oder Zehendruck, TcPO2", "un parmi IPS, pression de cheville ou d’orteil, TcPO2", "uno de ITB, presión de tobillo o dedo, TcPO2", "ABI、踝压、趾压、TcPO2 之一"}},
+  // Phantoms
+  {"phantom_forefoot", {"forefoot", "Vorfuß", "avant-pied", "antepié", "前足"}},
+  {"phantom_heel", {"heel", "Ferse", "talon", "talón", "足跟"}},
+  {"phantom_lateral", {"lateral border", "Außenrand", "bord latéral", "borde lateral", "外侧缘"}},
+  {"phantom_two", {"two wounds, the first", "zwei Wunden, die erste", "deux plaies, la première", "dos heridas, la primera", "双创面之一"}},
   {"epithelialised", {"epithelialised", "epithelialisiert", "épithélialisé", "epitelizado", "已上皮化"}},
   {"superficial", {"superficial", "oberflächlich", "superficiel", "superficial", "浅表"}},
   {"to tendon or capsule", {"to tendon or capsule", "bis Sehne oder Kapsel", "jusqu’au tendon ou à la capsule", "hasta tendón o cápsula", "达肌腱或关节囊"}},

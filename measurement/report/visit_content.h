@@ -80,6 +80,7 @@ struct ReportFindings {
   bool undermining_recorded = false;  ///< false: not asked for; true and empty: none
   bool tunnels_recorded = false;
   std::vector<std::pair<std::string, std::string>> rows;  ///< "exudate_amount" -> "light"
+  std::optional<int> infection_signs;  ///< of the five local ones; empty: not all were looked for
 };
 
 /// Two visits on one another, with pictures taken by `illustrateComparison`.
@@ -108,6 +109,21 @@ struct ReportComparison {
   };
   std::optional<Extreme> highest;
   std::optional<Extreme> lowest;
+};
+
+/// Another wound of the same visit: what page 1 says of it. Its own report says the rest.
+struct OtherWound {
+  int wound_number = 2;
+  ReportSide side = ReportSide::NotRecorded;
+  std::string surface;
+  std::string site;
+  std::string report_id;
+  WoundMeasurement measurement;
+  ColorImage texture;  ///< close view, square; empty: words alone
+  ColorImage depth_map;
+  double mm_per_px = 0.1;
+  std::vector<Eigen::Vector2d> outline_px;
+  std::vector<std::array<Eigen::Vector2d, 3>> unseen_px;
 };
 
 struct ReportText {

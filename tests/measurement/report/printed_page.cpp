@@ -76,31 +76,73 @@ ColorImage renderedPage(const std::filesystem::path& pdf, int page, int dpi) {
   return result;
 }
 
+std::string documentFacts(const std::filesystem::path& pdf) {
+  return outputOf("pdfinfo", {"-enc", "UTF-8", pathOf(pdf)});
+}
+
+std::vector<std::string> bookmarks(const std::filesystem::path& pdf) {
+  const std::string xml = outputOf("pdftohtml", {"-xml", "-i", "-stdout", pathOf(pdf)});
+  std::vector<std::string> found;
+  const std::string item = "<item page=\"";
+  for (std::size_t at = xml.find(item); at != std::string::npos; at = xml.find(item, at + 1)) {
+    const std::size_t page = at + item.size();
+    const std::size_t title = xml.find('>', page) + 1;
+    found.push_back(xml.substr(page, xml.find('"', page) - page) + " " +
+                    xml.substr(title, xml.find('<', title) - title));
+  }
+  return found;
+}
+
+namespace {
+
+/// Of one table, all its parts.
+int referencesThatHold(const std::string& pdf, std::size_t table) {
+  std::istringstream lines(pdf.substr(table));
+  std::string word;
+  lines >> word;
+  if (word != "xref") {
+    return -1;
+  }
+  int held = 0;
+  for (lines >> word; lines && word != "trailer"; lines >> word) {
+    const int first = std::stoi(word);
+    int count = 0;
+    lines >> count;
+    for (int i = 0; i < count; ++i) {
+      std::size_t offset = 0;
+      int generation = 0;
+      lines >> offset >> generation >> word;
+      const std::string wanted = std::to_string(first + i) + " 0 obj";
+      if (word == "n" && pdf.compare(offset, wanted.size(), wanted) != 0) {
+        return -1;
+      }
+      held += word == "n" ? 1 : 0;
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
 int crossReferencesThatHold(const std::string& pdf) {
   const std::size_t pointer = pdf.rfind("startxref\n");
   std::istringstream at(pdf.substr(pointer + 10));
   std::size_t table = 0;
   at >> table;
-  std::istringstream lines(pdf.substr(table));
-  std::string word;
-  int first = 0;
-  int count = 0;
-  lines >> word >> first >> count;
-  if (word != "xref") {
-    return -1;
-  }
   int held = 0;
-  for (int i = 0; i < count; ++i) {
-    std::size_t offset = 0;
-    int generation = 0;
-    lines >> offset >> generation >> word;
-    if (word == "n") {
-      const std::string wanted = std::to_string(first + i) + " 0 obj";
-      if (pdf.compare(offset, wanted.size(), wanted) != 0) {
-        return -1;
-      }
-      ++held;
+  for (int tables = 0; tables < 3; ++tables) {
+    const int here = referencesThatHold(pdf, table);
+    if (here < 0) {
+      return -1;
     }
+    held += here;
+    const std::size_t trailer = pdf.find("trailer", table);
+    const std::size_t end = pdf.find("startxref", trailer);
+    const std::size_t previous = pdf.find("/Prev ", trailer);
+    if (previous == std::string::npos || previous > end) {
+      break;
+    }
+    table = std::stoul(pdf.substr(previous + 6));
   }
   return held;
 }

@@ -22,7 +22,14 @@ struct EmbeddedFont {
 /// A page as pixels.
 [[nodiscard]] ColorImage renderedPage(const std::filesystem::path& pdf, int page, int dpi);
 
-/// Objects whose offset in the cross-reference table points at "N 0 obj"; -1 if any does not.
+/// What pdfinfo says of the document, line by line.
+[[nodiscard]] std::string documentFacts(const std::filesystem::path& pdf);
+
+/// Bookmarks as "page title", in their order.
+[[nodiscard]] std::vector<std::string> bookmarks(const std::filesystem::path& pdf);
+
+/// Objects whose offset in the cross-reference tables (the last and those before it) points at
+/// "N 0 obj"; -1 if any does not.
 [[nodiscard]] int crossReferencesThatHold(const std::string& pdf);
 
 }  // namespace tarsus

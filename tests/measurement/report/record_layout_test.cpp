@@ -26,7 +26,8 @@ void expectTidy(const ReportContent& content, const std::string& what) {
       EXPECT_GE(a.x_mm, 18.0 - 1e-6) << a.name << where;
       EXPECT_LE(a.x_mm + a.width_mm, 196.0 + 1e-6) << a.name << where;
       EXPECT_GE(a.y_mm, 11.0 - 1e-6) << a.name << where;
-      EXPECT_LE(a.y_mm + a.height_mm, a.name == "foot" ? 289.5 : 277.8)
+      const double footer = content.paper == ReportPaper::A4 ? 277.8 : 260.2;
+      EXPECT_LE(a.y_mm + a.height_mm, a.name == "foot" ? footer + 11.7 : footer + 1e-6)
           << a.name << " page " << a.page << where;
       for (std::size_t j = i + 1; j < frames->size(); ++j) {
         EXPECT_FALSE(overlap(a, (*frames)[j])) << a.name << " and " << (*frames)[j].name << where;
@@ -43,6 +44,29 @@ TEST(RecordLayout, NothingMeasured) {
 }
 TEST(RecordLayout, LongTexts) {
   expectTidy(sample::withLongTexts(sample::makeRecord(4)), " long texts");
+}
+
+TEST(RecordLayout, OtherWoundsOfTheVisit) {
+  for (const int count : {1, 2, 4}) {
+    expectTidy(sample::withOtherWounds(sample::makeRecord(2), count),
+               " wounds " + std::to_string(count + 1));
+  }
+}
+TEST(RecordLayout, Letter) {
+  ReportContent content = sample::withOtherWounds(sample::makeRecord(4), 2);
+  content.paper = ReportPaper::Letter;
+  expectTidy(content, " letter");
+}
+TEST(RecordLayout, BedsideForm) {
+  for (const ReportPaper paper : {ReportPaper::A4, ReportPaper::Letter}) {
+    for (const int visits : {1, 4}) {
+      ReportContent content = sample::makeRecord(visits);
+      content.form = ReportForm::Bedside;
+      content.paper = paper;
+      expectTidy(content, " bedside " + std::to_string(visits));
+      expectTidy(sample::withNothingMeasured(content), " bedside, nothing measured");
+    }
+  }
 }
 
 /// Four pages hold an ordinary history in every language.

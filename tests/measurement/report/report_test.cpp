@@ -70,7 +70,7 @@ TEST(WriteReport, SaysEveryValueUnitAndIntervalOnTwoPages) {
               "Frames tracked 600 of 600",
               "Reference skin smooth skin 1.0",
               "Fit for measurement yes",
-              "Volume / area is 2.2 mm: below 4 mm the volume is less precise."});
+              "Volume / area is 2.2 mm; below 4 mm a volume is less precise than 5 %."});
 }
 
 TEST(WriteReport, SaysOnEachPageWhatItIsAndThatItIsADraft) {

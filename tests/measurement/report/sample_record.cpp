@@ -259,6 +259,31 @@ ReportContent in(ReportLanguage language, ReportContent content) {
   return content;
 }
 
+ReportContent withOtherWounds(ReportContent content, int count) {
+  for (int i = 0; i < count; ++i) {
+    OtherWound other;
+    other.wound_number = i + 2;
+    other.side = ReportSide::Right;
+    other.surface = "plantar";
+    other.site = i == 0 ? "heel" : "toe_1";
+    other.report_id = "TS-2026-0007-W" + std::to_string(i + 2) + "-V1";
+    other.measurement = grown(makeContent().measurement, 0.8, 0.9);
+    if (i == 0) {
+      other.measurement.not_measurable["volume_mm3"] =
+          "28 % of the wound bed was not seen by the camera";
+    }
+    if (i < 2) {
+      other.texture = content.texture;
+      other.depth_map = content.depth_map;
+      other.mm_per_px = content.close_mm_per_px;
+      other.outline_px = content.outline_px;
+      other.unseen_px = content.unseen_px;
+    }
+    content.other_wounds.push_back(other);
+  }
+  return content;
+}
+
 ReportContent withLongTexts(ReportContent content) {
   const std::string words = "a patient with a very long name indeed and a place that is longer ";
   content.record->patient_name = words + words;

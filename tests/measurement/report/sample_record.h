@@ -16,4 +16,7 @@ namespace tarsus::sample {
 [[nodiscard]] ReportContent withLongTexts(ReportContent content);
 [[nodiscard]] ReportContent withNothingMeasured(ReportContent content);
 
+/// With that many other wounds of the same visit, the first two with pictures.
+[[nodiscard]] ReportContent withOtherWounds(ReportContent content, int count);
+
 }  // namespace tarsus::sample

@@ -151,7 +151,8 @@ WoundMeasurement makeNumbers() {
                  {"length_clock_mm", {20.6, 22.6}},
                  {"width_clock_mm", {19.1, 21.1}}};
   m.method = "smooth skin 1.0";
-  m.warnings = {{"shallow", "Volume / area is 2.2 mm: below 4 mm the volume is less precise."}};
+  m.warnings = {
+      {"shallow_wound", "Volume / area is 2.2 mm; below 4 mm a volume is less precise than 5 %."}};
   return m;
 }
 

@@ -23,6 +23,8 @@ TEST(Sentences, SaysReasonsAndWarningsInTheReportsLanguage) {
                "Volume / area is 1.8 mm; below 4 mm a volume is less precise than 5 %."),
             "Volumen ÷ área: 1,8 mm; por debajo de 4 mm un volumen es menos preciso que un 5 %.");
   EXPECT_EQ(in(ReportLanguage::Chinese, "600 of 600"), "600/600");
+  EXPECT_EQ(in(ReportLanguage::German, "0.65 mm"), "0,65 mm");
+  EXPECT_EQ(in(ReportLanguage::Chinese, "0.7 %"), "0.7%");
   EXPECT_EQ(in(ReportLanguage::German, "biconic kriging 2; skin curve 2.0 mm outside the outline"),
             "biconic kriging 2; Hautkurve 2,0 mm außerhalb des Umrisses");
   EXPECT_EQ(in(ReportLanguage::German, "grade 1, stage A"), "Grad 1, Stadium A");
