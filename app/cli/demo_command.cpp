@@ -73,10 +73,11 @@ Expected<json> measureWoundNumber(int n, const fs::path& out, const json& truth,
   auto written =
       writeTextAtomically(out / ("measurement" + suffix + ".json"), result.dump(2) + "\n");
   if (written) {
-    written = printReport(out / ("report" + suffix + ".pdf"),
-                          *measured,
-                          arguments.model,
-                          "Simulated patient, wound " + number + ": " + known.value("site", ""));
+    written = printReport(
+        out / ("report" + suffix + ".pdf"),
+        *measured,
+        arguments.model,
+        {.title = "Simulated patient, wound " + number + ": " + known.value("site", "")});
   }
   if (!written) {
     return tl::unexpected(written.error());

@@ -33,14 +33,22 @@ std::string now() {
 Expected<void> printReport(const std::filesystem::path& pdf,
                            const MeasuredModel& measured,
                            const std::filesystem::path& model_file,
-                           const std::string& title) {
+                           const PrintOptions& options) {
   startQt();
   ReportContent content = illustrate(measured.foot, measured.wound, measured.landmarks);
-  content.title_line = title;
+  content.title_line = options.title;
+  content.form = options.form;
+  content.paper = options.paper;
   content.fit_for_measurement = measured.fit_for_measurement;
   content.version = TARSUS_VERSION;
   content.model_sha256 = measured.foot.sha256;
   content.created = now();
+  if (options.form == ReportForm::Bedside) {
+    ReportRecord record;  // a draft that nobody is named in but by the title
+    record.patient_name = options.title;
+    record.visit_time = content.created;
+    content.record = record;
+  }
   const auto scan_text = readTextFile(model_file.parent_path() / "reconstruction.json");
   const json scan = scan_text ? json::parse(*scan_text, nullptr, false) : json();
   addScanQuality(scan, content);

@@ -7,6 +7,7 @@
 #include "measurement/report/change_picture.h"
 #include "measurement/report/close_view.h"
 #include "measurement/report/scan_quality.h"
+#include "measurement/report/section_profile.h"
 #include "measurement/report/visit_rows.h"
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/base/sha256.h"
@@ -32,6 +33,8 @@ struct Measured {
   Visit visit;
   WoundMeasurement numbers;
   std::optional<MeasuredModel> model;
+  std::vector<Eigen::Vector2d> outline_mm;  ///< where the model was let go
+  std::optional<TissueShares> tissue;
 };
 
 /// The measured visits of one wound up to this one, which is the last.
@@ -45,13 +48,13 @@ Expected<std::vector<Measured>> measuredVisits(const PatientHistory& history, co
     const bool counts = each.wound_id == visit.wound_id && each.id != visit.id &&
                         each.content.taken_at_ms < visit.content.taken_at_ms;
     if (counts && last.contains(each.id)) {
-      measured.push_back({each, measurementFromJson(last.at(each.id)->numbers), {}});
+      measured.push_back({each, measurementFromJson(last.at(each.id)->numbers), {}, {}, {}});
     }
   }
   if (!last.contains(visit.id)) {
     return fail(ErrorCode::RecordMissing, "visit " + visit.id + " was not measured");
   }
-  measured.push_back({visit, measurementFromJson(last.at(visit.id)->numbers), {}});
+  measured.push_back({visit, measurementFromJson(last.at(visit.id)->numbers), {}, {}, {}});
   return measured;
 }
 
@@ -67,6 +70,14 @@ Expected<void> openModel(Store& store, Measured& measured, const fs::path& folde
   }
   measured.model = std::move(*model);
   return {};
+}
+
+/// Keeps of a visit between the first and the one before what the trends show.
+void keepOutline(Measured& measured) {
+  const MeasuredModel& model = *measured.model;
+  measured.outline_mm = outlineForTrends(illustrate(model.foot, model.wound, model.landmarks));
+  measured.tissue = model.tissue;
+  measured.model.reset();
 }
 
 NameOfUser namesOf(Store& store) {
@@ -182,6 +193,8 @@ void addVisits(std::span<const Measured> visits, ReportContent& content) {
                       .tissue = std::nullopt,
                       .undermining_mm = std::nullopt,
                       .tunnel_mm = std::nullopt};
+    shown.tissue = each.tissue;
+    shown.outline_mm = each.outline_mm;
     if (each.model) {
       shown.tissue = each.model->tissue;
       shown.outline_mm = i + 1 == visits.size()
@@ -191,6 +204,79 @@ void addVisits(std::span<const Measured> visits, ReportContent& content) {
     }
     content.visits.push_back(std::move(shown));
   }
+}
+
+/// The first visit's bed in this visit's section, once its skin lies on this visit's.
+void addFirstBed(std::span<const Measured> visits, ReportContent& content) {
+  if (visits.size() < 2 || !content.section) {
+    return;
+  }
+  const MeasuredModel& first = *visits.front().model;
+  RigidTransform now_from_first = RigidTransform::Identity();
+  if (visits.size() == 2) {
+    if (!content.comparison || !content.comparison->result.registration.accepted) {
+      return;
+    }
+    now_from_first = content.comparison->result.registration.b_from_a;
+  } else {
+    const auto compared =
+        compareVisits(comparedVisit(first), comparedVisit(*visits.back().model), 1.0);
+    if (!compared || !compared->registration.accepted) {
+      return;
+    }
+    now_from_first = compared->registration.b_from_a;
+  }
+  TriangleMesh moved{.vertices = first.foot.mesh.vertices, .faces = first.foot.mesh.faces};
+  for (Eigen::Vector3f& vertex : moved.vertices) {
+    vertex = (now_from_first * vertex.cast<double>()).cast<float>();
+  }
+  content.section->first_bed_mm = lineInSection(moved, *content.section);
+}
+
+bool sameDay(const Visit& a, const Visit& b) {
+  return isoTime(a.content.taken_at_ms).substr(0, 10) ==
+         isoTime(b.content.taken_at_ms).substr(0, 10);
+}
+
+/// The patient's other wounds that were measured on the same day, two of them with pictures.
+Expected<void> addOtherWounds(Store& store,
+                              const PatientHistory& history,
+                              const Visit& visit,
+                              const fs::path& folder,
+                              ReportContent& content) {
+  constexpr std::size_t kWithPictures = 2;
+  std::map<std::string, const Measurement*> last;
+  for (const Measurement& measurement : history.measurements) {
+    last[measurement.visit_id] = &measurement;
+  }
+  for (const Visit& each : history.visits) {
+    if (each.wound_id == visit.wound_id || !sameDay(each, visit) || !last.contains(each.id)) {
+      continue;
+    }
+    const ReportRecord place = recordOf(history, each, [](const std::string& id) { return id; });
+    OtherWound other;
+    other.wound_number = place.wound_number;
+    other.side = place.side;
+    other.surface = place.surface;
+    other.site = place.site;
+    other.report_id = each.id;
+    Measured measured{each, measurementFromJson(last.at(each.id)->numbers), {}, {}, {}};
+    other.measurement = measured.numbers;
+    if (content.other_wounds.size() < kWithPictures) {
+      if (auto opened = openModel(store, measured, folder); !opened) {
+        return tl::unexpected(opened.error());
+      }
+      const MeasuredModel& model = *measured.model;
+      ReportContent shown = illustrate(model.foot, model.wound, model.landmarks);
+      other.texture = std::move(shown.texture);
+      other.depth_map = std::move(shown.depth_map);
+      other.mm_per_px = shown.close_mm_per_px;
+      other.outline_px = std::move(shown.outline_px);
+      other.unseen_px = std::move(shown.unseen_px);
+    }
+    content.other_wounds.push_back(std::move(other));
+  }
+  return {};
 }
 
 json reconstructionOf(const fs::path& folder) {
@@ -222,17 +308,19 @@ Expected<ReportContent> visitReport(Store& store,
   if (!visits) {
     return tl::unexpected(visits.error());
   }
-  // The first for the trends' outlines, the one before for the comparison, this one for all.
+  // All for their outlines; the first, the one before and this one are kept for pictures.
   const std::size_t count = visits->size();
   for (std::size_t i = 0; i < count; ++i) {
     if (job.stopped()) {
       return fail(ErrorCode::Cancelled);
     }
     job.report("report", static_cast<double>(i) / static_cast<double>(count + 1));
-    if (i == 0 || i + 2 >= count) {
-      if (auto opened = openModel(store, (*visits)[i], folder); !opened) {
-        return tl::unexpected(opened.error());
-      }
+    Measured& each = (*visits)[i];
+    if (auto opened = openModel(store, each, folder); !opened) {
+      return tl::unexpected(opened.error());
+    }
+    if (i > 0 && i + 2 < count) {
+      keepOutline(each);
     }
   }
   const Measured& now = visits->back();
@@ -244,6 +332,8 @@ Expected<ReportContent> visitReport(Store& store,
   content.model_sha256 = now.model->foot.sha256;
   content.created = isoTime(visit.at_ms);
   content.language = options.language;
+  content.form = options.form;
+  content.paper = options.paper;
   content.record = recordOf(*history, visit, name_of);
   content.title_line = content.record->patient_name;
   const json reconstruction = reconstructionOf(folder / visit.id);
@@ -256,6 +346,10 @@ Expected<ReportContent> visitReport(Store& store,
     if (auto compared = addComparison(*visits, content); !compared) {
       return tl::unexpected(compared.error());
     }
+    addFirstBed(*visits, content);
+  }
+  if (auto added = addOtherWounds(store, *history, visit, folder, content); !added) {
+    return tl::unexpected(added.error());
   }
   if (auto found = addFindings(visit, name_of, content); !found) {
     return tl::unexpected(found.error());

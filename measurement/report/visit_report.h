@@ -14,6 +14,8 @@ namespace tarsus {
 struct VisitReportOptions {
   ReportLanguage language = ReportLanguage::English;
   std::string version;  ///< of the program
+  ReportForm form = ReportForm::Full;
+  ReportPaper paper = ReportPaper::A4;
 };
 
 /// A visit's report from the records: its wound measured anew for the pictures, the wound's

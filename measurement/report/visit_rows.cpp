@@ -33,6 +33,26 @@ std::vector<ClockRange> clockRanges(const json& list) {
   return ranges;
 }
 
+/// Of the five local signs; nothing unless all were looked for.
+std::optional<int> infectionSigns(const json& fields) {
+  constexpr double kErythema_cm = 0.5;
+  int signs = 0;
+  for (const char* name : {"infection_swelling_or_induration",
+                           "infection_tenderness_or_pain",
+                           "infection_warmth",
+                           "infection_pus"}) {
+    if (!fields.contains(name) || !fields.at(name).is_boolean()) {
+      return std::nullopt;
+    }
+    signs += fields.at(name).get<bool>() ? 1 : 0;
+  }
+  const auto erythema = fields.find("infection_erythema_cm");
+  if (erythema == fields.end() || !erythema->is_number()) {
+    return std::nullopt;
+  }
+  return signs + (erythema->get<double>() > kErythema_cm ? 1 : 0);
+}
+
 /// Fields that differ between two versions, in the form's order.
 std::vector<ReportAmendment> amendmentsBetween(const Visit& before,
                                                const Visit& after,
@@ -91,6 +111,7 @@ Expected<void> addFindings(const Visit& visit, const NameOfUser& name_of, Report
     content.findings.tunnels = clockRanges(*ranges);
     content.findings.tunnels_recorded = true;
   }
+  content.findings.infection_signs = infectionSigns(fields);
   const json scores = fields.value("scores", json::object());
   for (const auto& [score, items] : scores.items()) {
     auto result = scoreFromJson(score, items);

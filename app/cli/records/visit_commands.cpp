@@ -281,6 +281,8 @@ void addReportVisit(CLI::App& parent, Command& command) {
     std::string visit;
     std::filesystem::path pdf;
     std::string language = "en";
+    std::string form = "full";
+    std::string paper = "a4";
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* sub =
@@ -289,6 +291,12 @@ void addReportVisit(CLI::App& parent, Command& command) {
   sub->add_option("OUT", arguments->pdf, "The PDF to write")->required()->type_name("OUT.pdf");
   sub->add_option("--language", arguments->language)
       ->check(CLI::IsMember({"en", "de", "fr", "es", "zh"}))
+      ->capture_default_str();
+  sub->add_option("--form", arguments->form, "The whole report, or one page for the bedside")
+      ->check(CLI::IsMember({"full", "bedside"}))
+      ->capture_default_str();
+  sub->add_option("--paper", arguments->paper)
+      ->check(CLI::IsMember({"a4", "letter"}))
       ->capture_default_str();
   runInStore(*sub, command, [&command, arguments](Store& store, const Job& job) -> Expected<json> {
     constexpr std::array kLanguages{"en", "de", "fr", "es", "zh"};
@@ -302,7 +310,9 @@ void addReportVisit(CLI::App& parent, Command& command) {
         arguments->visit,
         folder.path(),
         {.language = kReportLanguages.at(static_cast<std::size_t>(at - kLanguages.begin())),
-         .version = TARSUS_VERSION},
+         .version = TARSUS_VERSION,
+         .form = arguments->form == "bedside" ? ReportForm::Bedside : ReportForm::Full,
+         .paper = arguments->paper == "letter" ? ReportPaper::Letter : ReportPaper::A4},
         job);
     if (!content) {
       return tl::unexpected(content.error());
