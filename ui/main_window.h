@@ -1,78 +1,80 @@
 #pragma once
 
-#include "reconstruction/base/error.h"
-#include "reconstruction/scene/mesh.h"
-#include "ui/theme.h"
+#include "ui/work/session.h"
 
 #include <QWidget>
 
 #include <functional>
-#include <memory>
+#include <vector>
 
-class QLabel;
+class QKeySequence;
 class QStackedWidget;
-class QPushButton;
 
 namespace tarsus {
 
-class ModelLoader;
-class ModelPanel;
-class ModelView;
-class ScaleBar;
-class ViewTools;
+class GateScreen;
+class Header;
+class ModelScreen;
+class NewPatientScreen;
+class PatientScreen;
+class PatientsScreen;
+class Screen;
+class StatusBar;
 
-/// The window: a start page, then one model with its facts. Opens files by argument, button, key
-/// and drop.
+/// The window: header, one screen at a time, status bar; where one came from, and the keys that
+/// are the same everywhere. While nobody works the gate stands over it all, and the screen under it
+/// is kept for the one who comes back.
 class MainWindow : public QWidget {
   Q_OBJECT
 
  public:
-  explicit MainWindow(const Theme& theme, QWidget* parent = nullptr);
+  explicit MainWindow(SessionOptions options, QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Begins to open a file; the result is shown when it is there, and announced.
-  void open(const QString& path);
-  /// Lets the user choose a file.
-  void chooseFile();
+  /// Opens the records; until then the window says that it does.
+  void start();
+  /// Opens a model file, on a screen of its own that needs nobody signed in.
+  void openModel(const QString& path);
 
-  [[nodiscard]] const TexturedMesh* model() const { return model_.get(); }
-  /// The sentence that is shown about a file that could not be opened; empty when there is none.
-  [[nodiscard]] QString problem() const;
+  [[nodiscard]] Session& session() { return *session_; }
+  [[nodiscard]] ModelScreen* modelScreen() { return model_; }
+  [[nodiscard]] PatientsScreen* patientsScreen() { return patients_; }
+  [[nodiscard]] PatientScreen* patientScreen() { return patient_; }
+  [[nodiscard]] Screen* currentScreen() const;
+  void showPatient(const QString& id);
+  void back();
 
  signals:
-  void modelShown();
-  void modelRefused();
+  /// A draft is to be worked on.
+  void visitChosen(const QString& visit_id);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
  private:
-  QWidget* makeHeader();
-  QWidget* makeStatus();
-  QWidget* makeProblem();
-  QWidget* makeModelPage();
-  void makeActions();
+  void makeScreens();
+  void makeKeys();
   void addKey(const QString& name, const QKeySequence& key, std::function<void()> act);
-  void showModel(const QString& path, std::shared_ptr<const TexturedMesh> model);
-  void showProblem(const QString& path, const Error& error);
-  void setTextured(bool textured);
+  void go(Screen* screen);
+  void bring(Screen* screen);
+  void follow();
+  void forget();
+  void showFrame();
+  void goToCrumb(int index);
 
-  Theme theme_;
-  std::shared_ptr<const TexturedMesh> model_;
-  ModelLoader* loader_ = nullptr;
-  QStackedWidget* pages_ = nullptr;
-  ModelView* view_ = nullptr;
-  ModelPanel* panel_ = nullptr;
-  ViewTools* tools_ = nullptr;
-  ScaleBar* scale_bar_ = nullptr;
-  QLabel* crumb_ = nullptr;
-  QLabel* state_ = nullptr;
-  QPushButton* open_ = nullptr;
-  QWidget* problem_ = nullptr;
-  QLabel* problem_title_ = nullptr;
-  QLabel* problem_text_ = nullptr;
-  QLabel* problem_detail_ = nullptr;
+  Session* session_ = nullptr;
+  Header* header_ = nullptr;
+  StatusBar* status_ = nullptr;
+  QStackedWidget* stack_ = nullptr;
+  GateScreen* gate_ = nullptr;
+  PatientsScreen* patients_ = nullptr;
+  NewPatientScreen* new_patient_ = nullptr;
+  PatientScreen* patient_ = nullptr;
+  ModelScreen* model_ = nullptr;
+  Screen* kept_ = nullptr;  ///< under the gate
+  std::string kept_for_;    ///< whose it is
+  std::vector<Screen*> history_;
 };
 
 }  // namespace tarsus

@@ -1,7 +1,9 @@
+#include "app/user_folders.h"
 #include "app/version.h"
+#include "ui/look/look.h"
 #include "ui/main_window.h"
-#include "ui/model_view.h"
-#include "ui/theme.h"
+#include "ui/scene/model_view.h"
+#include "ui/screens/model_screen.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -35,22 +37,24 @@ int run(QApplication& application) {
   parser.addOption(screenshot);
   parser.process(application);
 
-  const tarsus::Theme theme = tarsus::Theme::light();
-  application.setPalette(theme.palette());
-  application.setFont(tarsus::themeFont(tarsus::TypeRole::Base));
-  tarsus::MainWindow window(theme);
+  tarsus::Look::instance().set(tarsus::ThemeChoice::Light, 100);
+  tarsus::MainWindow window(
+      {.folder = tarsus::userDataFolder() / "records", .now_ms = {}, .key_cost = {}});
   if (parser.isSet(screenshot)) {
     const QString file = parser.value(screenshot);
     if (parser.positionalArguments().isEmpty()) {
       saveAndQuit(window, file);
     }
-    for (const auto signal : {&tarsus::MainWindow::modelShown, &tarsus::MainWindow::modelRefused}) {
-      QObject::connect(&window, signal, &window, [&window, file] { saveAndQuit(window, file); });
+    for (const auto signal :
+         {&tarsus::ModelScreen::modelShown, &tarsus::ModelScreen::modelRefused}) {
+      QObject::connect(
+          window.modelScreen(), signal, &window, [&window, file] { saveAndQuit(window, file); });
     }
   }
   window.show();
+  window.start();
   if (!parser.positionalArguments().isEmpty()) {
-    window.open(parser.positionalArguments().constFirst());
+    window.openModel(parser.positionalArguments().constFirst());
   }
   return QApplication::exec();
 }

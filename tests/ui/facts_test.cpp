@@ -1,5 +1,4 @@
-#include "ui/model_facts.h"
-#include "ui/theme.h"
+#include "ui/screens/model_facts.h"
 
 #include <gtest/gtest.h>
 
@@ -49,25 +48,6 @@ TEST(ModelFacts, CountsSharesAndMedians) {
   EXPECT_EQ(valueOf(facts, "Not seen in colour"), QStringLiteral(u"67\u00A0%"));
   EXPECT_TRUE(valueOf(facts, "Typical uncertainty").startsWith(QStringLiteral("0")));
   EXPECT_TRUE(valueOf(facts, "Typical uncertainty").contains(QStringLiteral("20")));
-}
-
-/// WCAG 2: 4.5 for text, 3 for edges of controls.
-TEST(Theme, TextCanBeReadOnItsGround) {
-  const Theme theme = Theme::light();
-  for (const QColor& ground : {theme.background, theme.surface, theme.sunk}) {
-    EXPECT_GE(contrast(theme.text, ground), 4.5);
-    EXPECT_GE(contrast(theme.text_secondary, ground), 4.5);
-  }
-  EXPECT_GE(contrast(theme.on_accent, theme.accent), 4.5);
-  EXPECT_GE(contrast(theme.accent_text, theme.accent_weak), 4.5);
-  EXPECT_GE(contrast(theme.danger_text, theme.danger_weak), 4.5);
-  EXPECT_GE(contrast(theme.warning_text, theme.warning_weak), 4.5);
-  EXPECT_GE(contrast(theme.control_edge, theme.surface), 3.0);
-  EXPECT_NEAR(contrast(Qt::black, Qt::white), 21.0, 1e-6);
-}
-
-TEST(Theme, StyleSheetHasNoTokenLeft) {
-  EXPECT_FALSE(Theme::light().styleSheet().contains(QLatin1Char('@')));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/scene/ply.h"
-#include "tests/support/temporary_folder.h"
-#include "ui/main_window.h"
-#include "ui/model_view.h"
-#include "ui/view_overlay.h"
+#include "tests/ui/ui_test.h"
+#include "ui/scene/model_view.h"
+#include "ui/scene/view_overlay.h"
+#include "ui/screens/model_screen.h"
 
 #include <QApplication>
 #include <QLabel>
@@ -23,27 +23,6 @@ namespace tarsus {
 namespace {
 
 constexpr double kRadius_mm = 40.0;
-constexpr int kWait_ms = 20000;  // software rendering on a busy machine
-
-class Application : public testing::Environment {
- public:
-  void SetUp() override {
-    if (qEnvironmentVariableIsEmpty("DISPLAY")) {
-      return;
-    }
-    prepareGraphics();
-    application_ = std::make_unique<QApplication>(count_, arguments_);
-  }
-  void TearDown() override { application_.reset(); }
-
- private:
-  int count_ = 1;
-  char name_[5] = "test";
-  char* arguments_[2] = {name_, nullptr};
-  std::unique_ptr<QApplication> application_;
-};
-
-const auto* const kApplication = testing::AddGlobalTestEnvironment(new Application);
 
 /// A sphere, red towards the first camera (-z) and blue behind.
 TexturedMesh sphere() {
@@ -73,23 +52,20 @@ TexturedMesh sphere() {
   return model;
 }
 
-class Window : public testing::Test {
+class Window : public WindowTest {
  protected:
   void SetUp() override {
-    if (qApp == nullptr) {
-      GTEST_SKIP() << "no display; run with: xvfb-run -a -s \"-screen 0 1440x900x24\" ctest";
+    WindowTest::SetUp();
+    if (window_) {
+      ASSERT_TRUE(writePly(good_, sphere()));
+      screen_ = window_->modelScreen();
     }
-    ASSERT_TRUE(writePly(good_, sphere()));
-    window_ = std::make_unique<MainWindow>(Theme::light());
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());  // no window manager in a virtual screen
   }
 
   void openAndWait(const std::filesystem::path& path) {
-    QSignalSpy shown(window_.get(), &MainWindow::modelShown);
-    QSignalSpy refused(window_.get(), &MainWindow::modelRefused);
-    window_->open(QString::fromStdString(path.string()));
+    QSignalSpy shown(screen_, &ModelScreen::modelShown);
+    QSignalSpy refused(screen_, &ModelScreen::modelRefused);
+    window_->openModel(QString::fromStdString(path.string()));
     EXPECT_TRUE(QTest::qWaitFor([&] { return shown.count() + refused.count() > 0; }, kWait_ms));
     QTest::qWait(50);
   }
@@ -102,32 +78,22 @@ class Window : public testing::Test {
     const QImage image = picture();
     return image.pixelColor(image.width() / 2, image.height() / 2);
   }
-  [[nodiscard]] bool shows(const QString& words) const {
-    for (const QLabel* label : window_->findChildren<QLabel*>()) {
-      if (label->isVisible() && label->text().contains(words)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  TemporaryFolder folder_;
   std::filesystem::path good_ = folder_.path() / "model.ply";
-  std::unique_ptr<MainWindow> window_;
+  ModelScreen* screen_ = nullptr;
 };
 
-TEST_F(Window, WithoutAFileSaysWhatToDo) {
+TEST_F(Window, RefusedFileSaysWhatToDo) {
+  openAndWait(folder_.path() / "nothing.ply");
   EXPECT_TRUE(shows(QStringLiteral("No model open")));
   EXPECT_TRUE(shows(QStringLiteral("tarsus-cli reconstruct SCAN OUT")));
   EXPECT_TRUE(shows(QStringLiteral("Research software. Not a medical device.")));
-  EXPECT_TRUE(window_->problem().isEmpty());
-  EXPECT_EQ(window_->model(), nullptr);
+  EXPECT_EQ(screen_->model(), nullptr);
 }
 
 TEST_F(Window, GoodFileIsShownWithItsFacts) {
   openAndWait(good_);
-  ASSERT_NE(window_->model(), nullptr);
-  EXPECT_EQ(window_->model()->mesh.faces.size(), sphere().mesh.faces.size());
+  ASSERT_NE(screen_->model(), nullptr);
+  EXPECT_EQ(screen_->model()->mesh.faces.size(), sphere().mesh.faces.size());
   EXPECT_FALSE(shows(QStringLiteral("No model open")));
   EXPECT_TRUE(shows(QStringLiteral("Not fit for measurement")));
   EXPECT_TRUE(shows(QStringLiteral("Research software. Not a medical device.")));
@@ -135,7 +101,7 @@ TEST_F(Window, GoodFileIsShownWithItsFacts) {
   ASSERT_NE(hash, nullptr);
   QString digits = hash->text();
   digits.remove(QLatin1Char(' ')).remove(QLatin1Char('\n'));
-  EXPECT_EQ(digits.toStdString(), window_->model()->sha256);
+  EXPECT_EQ(digits.toStdString(), screen_->model()->sha256);
   const QColor seen = middle();
   EXPECT_GT(seen.red(), seen.blue() + 80);  // the side towards the first camera
 }
@@ -173,7 +139,7 @@ TEST_F(Window, BadFileGetsASentenceAndLeavesTheStartPage) {
   openAndWait(bad);
   const Expected<TexturedMesh> read = readPly(bad);
   ASSERT_FALSE(read);
-  EXPECT_EQ(window_->problem().toStdString(), codeSentence(read.error().code));
+  EXPECT_EQ(screen_->problem().toStdString(), codeSentence(read.error().code));
   EXPECT_TRUE(shows(QStringLiteral("bad.ply was not opened")));
   EXPECT_TRUE(shows(QStringLiteral("No model open")));
 }
@@ -181,11 +147,11 @@ TEST_F(Window, BadFileGetsASentenceAndLeavesTheStartPage) {
 TEST_F(Window, MissingFileKeepsTheModelThatIsShown) {
   openAndWait(good_);
   openAndWait(folder_.path() / "nothing.ply");
-  EXPECT_EQ(window_->problem().toStdString(), codeSentence(ErrorCode::FileMissing));
-  EXPECT_NE(window_->model(), nullptr);
+  EXPECT_EQ(screen_->problem().toStdString(), codeSentence(ErrorCode::FileMissing));
+  EXPECT_NE(screen_->model(), nullptr);
   EXPECT_TRUE(shows(QStringLiteral("Not fit for measurement")));
   openAndWait(good_);
-  EXPECT_TRUE(window_->problem().isEmpty());
+  EXPECT_TRUE(screen_->problem().isEmpty());
 }
 
 TEST_F(Window, DroppedFileIsOpened) {
@@ -194,7 +160,7 @@ TEST_F(Window, DroppedFileIsOpened) {
   QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(window_.get(), &enter);
   EXPECT_TRUE(enter.isAccepted());
-  QSignalSpy shown(window_.get(), &MainWindow::modelShown);
+  QSignalSpy shown(screen_, &ModelScreen::modelShown);
   QDropEvent drop({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(window_.get(), &drop);
   EXPECT_TRUE(QTest::qWaitFor([&] { return shown.count() > 0; }, kWait_ms));

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+
+class QHBoxLayout;
+class QLabel;
+class QToolButton;
+
+namespace tarsus {
+
+class StepBar;
+
+/// The bar on top: mark, where one is (each part before the last goes back to it), the steps of a
+/// visit while there is one, help, and who works.
+class Header : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Header(QWidget* parent = nullptr);
+  void setCrumbs(const QStringList& crumbs);
+  /// Empty: nobody, and nothing to lock.
+  void setPerson(const QString& name, const QString& role);
+  [[nodiscard]] StepBar* steps() { return steps_; }
+
+ signals:
+  void crumbClicked(int index);
+  void helpClicked();
+  void openModelClicked();
+  void lockClicked();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void showCrumbs();
+
+  QStringList shown_crumbs_;
+  QHBoxLayout* crumbs_ = nullptr;
+  StepBar* steps_ = nullptr;
+  QToolButton* person_ = nullptr;
+  QString person_text_;
+};
+
+}  // namespace tarsus
