@@ -45,19 +45,20 @@ TEST_P(ThemeTest, EdgesAndMarksCanBeSeen) {
   EXPECT_GE(contrast(theme.warning, theme.surface), kEdge);
 }
 
-/// The numbers of the design, so that a token is not changed by a slip.
+/// The numbers of the design, so that a token is not changed by a slip; to one of its last digit.
 TEST(Theme, ContrastsAreThoseOfTheDesign) {
+  constexpr double kLastDigit = 0.1;
   const Theme light = Theme::light();
-  EXPECT_NEAR(contrast(light.text, light.background), 14.6, 0.05);
-  EXPECT_NEAR(contrast(light.text_secondary, light.surface), 5.8, 0.05);
-  EXPECT_NEAR(contrast(light.on_accent, light.accent), 5.2, 0.05);
-  EXPECT_NEAR(contrast(light.control_edge, light.surface), 3.5, 0.05);
+  EXPECT_NEAR(contrast(light.text, light.background), 14.6, kLastDigit);
+  EXPECT_NEAR(contrast(light.text_secondary, light.surface), 5.8, kLastDigit);
+  EXPECT_NEAR(contrast(light.on_accent, light.accent), 5.2, kLastDigit);
+  EXPECT_NEAR(contrast(light.control_edge, light.surface), 3.5, kLastDigit);
   const Theme dark = Theme::dark();
-  EXPECT_NEAR(contrast(dark.text, dark.background), 15.1, 0.05);
-  EXPECT_NEAR(contrast(dark.warning_text, dark.warning_weak), 8.2, 0.05);
+  EXPECT_NEAR(contrast(dark.text, dark.background), 15.1, kLastDigit);
+  EXPECT_NEAR(contrast(dark.warning_text, dark.warning_weak), 8.2, kLastDigit);
   const Theme high = Theme::highContrast();
   EXPECT_NEAR(contrast(high.text, high.background), 21.0, 1e-6);
-  EXPECT_NEAR(contrast(high.danger_text, high.danger_weak), 11.3, 0.05);
+  EXPECT_NEAR(contrast(high.danger_text, high.danger_weak), 11.3, kLastDigit);
 }
 
 TEST_P(ThemeTest, StyleSheetIsFilledAtEachScale) {

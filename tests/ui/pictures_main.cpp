@@ -210,6 +210,7 @@ class Pictures {
         .folder = folder, .now_ms = {}, .key_cost = {.operations = 1, .memory_bytes = 8192}});
     window_->show();
     QTest::qWait(50);
+    QApplication::setActiveWindow(window_.get());
     window_->start();
     QTest::qWait(300);
   }
@@ -335,7 +336,7 @@ class Pictures {
     window_->back();
     QTest::qWait(300);
     named<QLineEdit>("search")->clear();
-    QTest::keyClick(window_.get(), Qt::Key_N, Qt::ControlModifier);
+    named<QPushButton>("new patient")->click();
     QTest::qWait(200);
     type("birth date", "31.2.1958");
     named<QPushButton>("add")->click();

@@ -20,10 +20,10 @@ QWidget#brand QLabel { color: @on_brand; }
 QFrame[role="card"] { background: @surface; border: @note_edge solid @line; border-radius: 6px; }
 QFrame[role="well"] { background: @sunk; border: @note_edge solid @line; border-radius: 6px; }
 QFrame[role="line"] { background: @line; border: none; }
-QFrame[tone="danger"] { background: @danger_weak; border: @note_edge solid @danger; border-radius: 6px; }
-QFrame[tone="danger"] QLabel { color: @danger_text; }
-QFrame[tone="warning"] { background: @warning_weak; border: @note_edge solid @warning; border-radius: 6px; }
-QFrame[tone="warning"] QLabel { color: @text; }
+QFrame[note="danger"] { background: @danger_weak; border: @note_edge solid @danger; border-radius: 6px; }
+QFrame[note="danger"] QLabel { color: @danger_text; }
+QFrame[note="warning"] { background: @warning_weak; border: @note_edge solid @warning; border-radius: 6px; }
+QFrame[note="warning"] QLabel { color: @text; }
 QLabel { color: @text; background: transparent; }
 QLabel[tone="secondary"] { color: @text2; }
 QLabel[tone="danger"] { color: @danger_text; }
@@ -32,6 +32,7 @@ QLabel[chip="good"] { background: @accent_weak; color: @accent_text; border: @no
 QLabel[chip="bad"] { background: @danger_weak; color: @danger_text; border: @note_edge solid @line; border-radius: 6px; padding: 4sp 10sp; }
 QLabel[chip="unknown"] { background: @warning_weak; color: @warning_text; border: @note_edge solid @line; border-radius: 6px; padding: 4sp 10sp; }
 QPushButton { background: @surface; color: @text; border: @edge_px solid @edge; border-radius: 6px; padding: 0 16sp; min-height: 38sp; icon-size: 20sp; }
+QPushButton[target="large"] { min-height: 46sp; }
 QPushButton:hover { background: @sunk; }
 QPushButton:disabled { color: @text2; background: @sunk; border-color: @line; }
 QPushButton[role="primary"] { background: @accent; color: @on_accent; border: @edge_px solid @accent; min-height: 46sp; }
@@ -48,6 +49,7 @@ QToolButton { background: @surface; color: @text; border: @edge_px solid @edge; 
 QToolButton:disabled { color: @text2; background: @sunk; border: 1px solid @line; }
 QToolButton:hover { background: @sunk; }
 QToolButton:checked { background: @accent_weak; color: @accent_text; border: @edge_px solid @accent; }
+QToolButton[target="large"] { min-height: 46sp; }
 QToolButton[role="icon"] { background: transparent; border: none; padding: 0; min-width: 40sp; min-height: 40sp; }
 QToolButton[role="icon"]:hover { background: @sunk; }
 QToolButton[role="person"] { background: @accent_weak; color: @accent_text; border: @note_edge solid @accent; border-radius: 17sp; padding: 0; min-width: 34sp; max-width: 34sp; min-height: 34sp; max-height: 34sp; }
@@ -57,9 +59,10 @@ QToolButton[segment="middle"] { border-radius: 0; border-left: none; }
 QToolButton[segment="last"] { border-top-left-radius: 0; border-bottom-left-radius: 0; border-left: none; }
 QToolButton[segment]:checked { border-color: @edge; }
 QLineEdit, QComboBox, QDateEdit, QDoubleSpinBox { background: @surface; color: @text; border: @edge_px solid @edge; border-radius: 6px; padding: 0 12sp; min-height: 46sp; selection-background-color: @accent; selection-color: @on_accent; }
-QLineEdit[size="desk"], QComboBox[size="desk"] { min-height: 38sp; }
+QLineEdit[target="desk"], QComboBox[target="desk"] { min-height: 38sp; }
 QLineEdit[state="error"], QComboBox[state="error"] { border: 2px solid @danger; }
 QLineEdit:disabled, QComboBox:disabled { background: @sunk; color: @text2; }
+QLineEdit QToolButton { background: transparent; border: none; padding: 0; min-height: 0; }
 QComboBox::drop-down { border: none; width: 36sp; }
 QComboBox::down-arrow { image: url(@icon(chevron-down,text)); width: 20sp; height: 20sp; }
 QComboBox QAbstractItemView { background: @surface; color: @text; border: 1px solid @edge; outline: none; padding: 4px; selection-background-color: @accent_weak; selection-color: @accent_text; }

@@ -21,7 +21,7 @@ ChoiceRow::ChoiceRow(const QStringList& texts, QWidget* parent) : QWidget(parent
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setFocusPolicy(Qt::StrongFocus);
     button->setCursor(Qt::PointingHandCursor);
-    button->setMinimumHeight(Look::px(48));
+    button->setProperty("target", QStringLiteral("large"));
     button->setProperty("segment",
                         i == 0                  ? QStringLiteral("first")
                         : i + 1 == texts.size() ? QStringLiteral("last")

@@ -7,6 +7,7 @@
 #include <QHBoxLayout>
 #include <QPainter>
 #include <QVBoxLayout>
+#include <QVariant>
 
 namespace tarsus {
 namespace {
@@ -59,7 +60,7 @@ void EmptyPlace::setWords(const QString& title, const QString& text) {
 
 QPushButton* EmptyPlace::addButton(const QString& text, const QString& role, const char* icon) {
   QPushButton* button = icon != nullptr ? makeButton(text, role, icon) : makeButton(text, role);
-  button->setMinimumHeight(Look::px(48));
+  button->setProperty("target", QStringLiteral("large"));
   buttons_->insertWidget(buttons_->count() - 1, button);
   return button;
 }

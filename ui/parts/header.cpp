@@ -36,9 +36,10 @@ Header::Header(QWidget* parent) : QWidget(parent) {
   steps_->hide();
   row->addWidget(steps_);
   row->addStretch();
-  QToolButton* help = makeIconButton(QStringLiteral("help"), tr("Help (F1)"));
-  connect(help, &QToolButton::clicked, this, &Header::helpClicked);
-  row->addWidget(help);
+  help_ = makeIconButton(QStringLiteral("help"), tr("Help (F1)"));
+  connect(help_, &QToolButton::clicked, this, &Header::helpClicked);
+  row->addWidget(help_);
+  help_->hide();
   person_ = new QToolButton;
   person_->setProperty("role", QStringLiteral("person"));
   person_->setObjectName(QStringLiteral("person"));
@@ -58,6 +59,8 @@ Header::Header(QWidget* parent) : QWidget(parent) {
   row->addWidget(person_);
   setPerson({}, {});
 }
+
+void Header::setHelp(bool there_is_help) { help_->setVisible(there_is_help); }
 
 void Header::setCrumbs(const QStringList& crumbs) {
   shown_crumbs_ = crumbs;

@@ -21,6 +21,8 @@ class Header : public QWidget {
   void setCrumbs(const QStringList& crumbs);
   /// Empty: nobody, and nothing to lock.
   void setPerson(const QString& name, const QString& role);
+  /// Shows the way to the help pages.
+  void setHelp(bool there_is_help);
   [[nodiscard]] StepBar* steps() { return steps_; }
 
  signals:
@@ -38,8 +40,8 @@ class Header : public QWidget {
   QStringList shown_crumbs_;
   QHBoxLayout* crumbs_ = nullptr;
   StepBar* steps_ = nullptr;
+  QToolButton* help_ = nullptr;
   QToolButton* person_ = nullptr;
-  QString person_text_;
 };
 
 }  // namespace tarsus

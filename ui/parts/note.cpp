@@ -10,7 +10,7 @@ namespace tarsus {
 
 Note::Note(Kind kind, QWidget* parent) : QFrame(parent) {
   const bool danger = kind == Kind::Danger;
-  setProperty("tone", danger ? QStringLiteral("danger") : QStringLiteral("warning"));
+  setProperty("note", danger ? QStringLiteral("danger") : QStringLiteral("warning"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 12, 14, 12);
   row->setSpacing(10);

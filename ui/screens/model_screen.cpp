@@ -51,7 +51,7 @@ QWidget* ModelScreen::makeProblem() {
   auto* margin = new QVBoxLayout(air);
   margin->setContentsMargins(24, 24, 24, 0);
   auto* note = new QFrame;
-  note->setProperty("tone", QStringLiteral("danger"));
+  note->setProperty("note", QStringLiteral("danger"));
   margin->addWidget(note);
   auto* row = new QHBoxLayout(note);
   row->setContentsMargins(16, 12, 12, 12);
@@ -116,7 +116,6 @@ QWidget* ModelScreen::makeModelPage() {
 void ModelScreen::addKey(const QString& name, const QKeySequence& key, std::function<void()> act) {
   auto* action = new QAction(name, this);
   action->setShortcut(key);
-  action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   connect(action, &QAction::triggered, this, [this, act = std::move(act)] {
     if (model_) {
       act();
@@ -155,7 +154,8 @@ void ModelScreen::showModel(const QString& path, std::shared_ptr<const TexturedM
   model_ = std::move(model);
   problem_->hide();
   const QFileInfo file(path);
-  crumbs_ = QStringList{tr("Model file"), file.dir().dirName() + QLatin1Char('/') + file.fileName()};
+  crumbs_ =
+      QStringList{tr("Model file"), file.dir().dirName() + QLatin1Char('/') + file.fileName()};
   emit crumbsChanged();
   panel_->showFacts(file.fileName(), factsOf(*model_), model_->sha256);
   pages_->setCurrentIndex(1);

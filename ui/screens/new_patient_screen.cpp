@@ -92,7 +92,7 @@ NewPatientScreen::NewPatientScreen(Session& session, QWidget* parent)
   buttons->setSpacing(12);
   buttons->addStretch();
   QPushButton* cancel = makeButton(tr("Cancel"));
-  cancel->setMinimumHeight(Look::px(48));
+  cancel->setProperty("target", QStringLiteral("large"));
   go_ = makeButton(tr("Add the patient"), QStringLiteral("primary"));
   go_->setObjectName(QStringLiteral("add"));
   buttons->addWidget(cancel);

@@ -8,6 +8,7 @@
 #include "ui/screens/patient_list_model.h"
 #include "ui/screens/review_model.h"
 
+#include <QAbstractScrollArea>
 #include <QPainter>
 #include <QTextOption>
 
@@ -163,13 +164,13 @@ void PatientDelegate::paint(QPainter* painter,
   painter->restore();
 }
 
-PatientColumns::PatientColumns(QWidget* parent) : QWidget(parent) {
+PatientColumns::PatientColumns(const QAbstractScrollArea* list) : list_(list) {
   Look::setFixedHeight(this, 36);
 }
 
 void PatientColumns::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  const Columns at = columnsIn(rect());
+  const Columns at = columnsIn(QRect(0, 0, list_->viewport()->width(), height()));
   const std::pair<int, QString> names[] = {{at.patient, tr("Patient")},
                                            {at.wound, tr("Wound")},
                                            {at.visit, tr("Visit")},

@@ -3,6 +3,8 @@
 #include <QStyledItemDelegate>
 #include <QWidget>
 
+class QAbstractScrollArea;
+
 namespace tarsus {
 
 /// Paints one patient: name, foot and site, visit, area, its line since the start, state.
@@ -23,10 +25,14 @@ class PatientColumns : public QWidget {
   Q_OBJECT
 
  public:
-  explicit PatientColumns(QWidget* parent = nullptr);
+  ///  list  whose viewport the columns stand over, beside its scroll bar
+  explicit PatientColumns(const QAbstractScrollArea* list);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+
+ private:
+  const QAbstractScrollArea* list_;
 };
 
 /// Paints one visit that waits for a physician.

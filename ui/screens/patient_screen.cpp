@@ -19,6 +19,7 @@
 #include <QPainter>
 #include <QScrollArea>
 #include <QStackedWidget>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <QVariant>
 
@@ -196,10 +197,10 @@ QWidget* PatientScreen::makeLeft() {
   known_->setColumnStretch(1, 1);
   column->addWidget(known_card_);
   column->addStretch();
-  QScrollArea* area = makeScroll(inside);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setFixedWidth(Look::px(344));
-  return area;
+  left_ = makeScroll(inside);
+  left_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  left_->setFixedWidth(Look::px(344));
+  return left_;
 }
 
 QWidget* PatientScreen::makeWounds() {
@@ -216,9 +217,11 @@ QWidget* PatientScreen::makeWounds() {
   map_ = new FootMap;
   map_->setProperty("ring", true);
   column->addWidget(map_);
-  wound_rows_ = new QVBoxLayout;
+  rows_box_ = new QWidget;
+  wound_rows_ = new QVBoxLayout(rows_box_);
+  wound_rows_->setContentsMargins(0, 0, 0, 0);
   wound_rows_->setSpacing(4);
-  column->addLayout(wound_rows_);
+  column->addWidget(rows_box_);
   form_ = new WoundForm;
   form_->hide();
   column->addWidget(form_);
@@ -306,7 +309,7 @@ QWidget* PatientScreen::makeFoot() {
   row->addLayout(notes, 1);
   start_ = makeButton(tr("Start new visit"), {}, "plus");
   start_->setObjectName(QStringLiteral("start visit"));
-  start_->setMinimumHeight(Look::px(48));
+  start_->setProperty("target", QStringLiteral("large"));
   continue_ = makeButton(tr("Continue the draft"), QStringLiteral("primary"));
   continue_->setObjectName(QStringLiteral("continue"));
   row->addWidget(start_, 0, Qt::AlignBottom);
@@ -551,11 +554,17 @@ void PatientScreen::showVisit(std::size_t index) {
 void PatientScreen::placeAt(FootSide side, const QString& place) {
   map_->setProposal(side, place);
   form_->propose(side, place);
+  rows_box_->hide();
+  known_card_->hide();
   form_->show();
+  // Once the layout has made room for it.
+  QTimer::singleShot(0, form_, [this] { left_->ensureWidgetVisible(form_, 0, 0); });
 }
 
 void PatientScreen::endPlacing() {
   form_->hide();
+  rows_box_->show();
+  known_card_->setVisible(!summary_.known.empty());
   map_->setProposal(FootSide::Right, {});
 }
 

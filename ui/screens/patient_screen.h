@@ -72,6 +72,8 @@ class PatientScreen : public Screen {
   QLabel* born_ = nullptr;
   FootMap* map_ = nullptr;
   QPushButton* place_ = nullptr;
+  QScrollArea* left_ = nullptr;
+  QWidget* rows_box_ = nullptr;
   QVBoxLayout* wound_rows_ = nullptr;
   WoundForm* form_ = nullptr;
   QWidget* known_card_ = nullptr;

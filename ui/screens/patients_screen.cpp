@@ -99,7 +99,7 @@ QWidget* PatientsScreen::makeBar() {
   tools->setSpacing(12);
   new_ = makeButton(tr("New patient"), {}, "plus");
   new_->setObjectName(QStringLiteral("new patient"));
-  new_->setMinimumHeight(Look::px(48));
+  new_->setProperty("target", QStringLiteral("large"));
   connect(new_, &QPushButton::clicked, this, &PatientsScreen::newPatient);
   search_ = new QLineEdit;
   search_->setObjectName(QStringLiteral("search"));
@@ -130,8 +130,8 @@ QWidget* PatientsScreen::makeList() {
   auto* column = new QVBoxLayout(page);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(new PatientColumns);
   list_ = new QListView;
+  column->addWidget(new PatientColumns(list_));
   list_->setObjectName(QStringLiteral("patients"));
   list_->setAccessibleName(tr("Patients"));
   list_->setModel(model_);

@@ -21,7 +21,7 @@ QString fromView(std::string_view text) {
 template <typename List, typename Word>
 QComboBox* makeCombo(const List& list, Word word) {
   auto* combo = new QComboBox;
-  combo->setProperty("size", QStringLiteral("desk"));
+  combo->setProperty("target", QStringLiteral("desk"));
   combo->setMinimumContentsLength(12);
   combo->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   for (const std::string_view item : list) {
@@ -41,7 +41,7 @@ WoundForm::WoundForm(QWidget* parent) : QFrame(parent) {
   column->setSpacing(10);
   column->addWidget(makeLabel(tr("New wound"), TypeRole::Strong));
   side_ = new QComboBox;
-  side_->setProperty("size", QStringLiteral("desk"));
+  side_->setProperty("target", QStringLiteral("desk"));
   side_->addItems({sideWord(FootSide::Left), sideWord(FootSide::Right)});
   place_ = makeCombo(kWoundPlaces, placeWord);
   place_->setObjectName(QStringLiteral("place"));
@@ -49,7 +49,7 @@ WoundForm::WoundForm(QWidget* parent) : QFrame(parent) {
   cause_ = makeCombo(kAetiologies, aetiologyWord);
   cause_->setCurrentIndex(cause_->count() - 1);  // unknown until somebody says otherwise
   onset_ = new QLineEdit;
-  onset_->setProperty("size", QStringLiteral("desk"));
+  onset_->setProperty("target", QStringLiteral("desk"));
   onset_frame_ = new FieldFrame(tr("Open since"), onset_, tr("A date, or empty"));
   auto* first = new QHBoxLayout;
   first->setSpacing(8);
