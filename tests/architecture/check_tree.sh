@@ -53,7 +53,7 @@ check_readmes() {
 
 check_paths() {
   find . -type f -not -path './build/*' -not -path './.git/*' -not -path './demo/*' \
-       -exec grep -IHnE '/(home|Users|work|root)/[[:alnum:]]' {} + || true
+       -exec grep -IHnE '(^|[^[:alnum:]_.-])/(home|Users|work|root)/[[:alnum:]]' {} + || true
 }
 
 found=$(check_includes; check_readmes; check_paths)

@@ -22,7 +22,11 @@ struct Columns {
 
 Columns columnsIn(const QRect& row) {
   const int pad = Look::px(16);
-  const int fixed[] = {Look::px(74), Look::px(92), Look::px(104), Look::px(130)};
+  int fixed[] = {Look::px(74), Look::px(92), Look::px(104), Look::px(130)};
+  const int least = Look::px(360);
+  if (row.width() - 2 * pad - fixed[0] - fixed[1] - fixed[2] - fixed[3] < least) {
+    fixed[2] = 0;  // the line since the start gives way to names and places
+  }
   const int rest = row.width() - 2 * pad - fixed[0] - fixed[1] - fixed[2] - fixed[3];
   Columns c{};
   c.patient = row.left() + pad;
@@ -111,10 +115,13 @@ void paintNumbers(QPainter& painter, const PatientRow& row, const QRect& box, co
        theme.text,
        kFlags);
   const double height = Look::px(18);
-  paintSparkline(
-      painter,
-      QRectF(at.line + 2, box.center().y() - height / 2, at.state - at.line - Look::px(22), height),
-      row.areas_mm2);
+  if (at.line < at.state) {
+    paintSparkline(
+        painter,
+        QRectF(
+            at.line + 2, box.center().y() - height / 2, at.state - at.line - Look::px(22), height),
+        row.areas_mm2);
+  }
   if (row.state) {
     const ChipLook chip = chipOf(*row.state);
     paintChip(painter, {at.state, box.center().y() - chipSize(chip).height() / 2}, chip);
@@ -123,8 +130,8 @@ void paintNumbers(QPainter& painter, const PatientRow& row, const QRect& box, co
 
 }  // namespace
 
-QSize PatientDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex&) const {
-  return {option.rect.width(), Look::px(72)};
+QSize PatientDelegate::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const {
+  return {1, Look::px(72)};
 }
 
 void PatientDelegate::paint(QPainter* painter,
@@ -178,6 +185,9 @@ void PatientColumns::paintEvent(QPaintEvent*) {
                                            {at.line, tr("Since start")},
                                            {at.state, tr("State")}};
   for (const auto& [left, name] : names) {
+    if (left == at.line && at.line == at.state && name == tr("Since start")) {
+      continue;
+    }
     painter.setFont(Look::font(TypeRole::Chip));
     painter.setPen(Look::theme().text_secondary);
     painter.drawText(
@@ -185,8 +195,8 @@ void PatientColumns::paintEvent(QPaintEvent*) {
   }
 }
 
-QSize ReviewDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex&) const {
-  return {option.rect.width(), Look::px(104)};
+QSize ReviewDelegate::sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const {
+  return {1, Look::px(104)};
 }
 
 void ReviewDelegate::paint(QPainter* painter,

@@ -194,12 +194,13 @@ QWidget* PatientScreen::makeLeft() {
   known_->setContentsMargins(16, 14, 16, 14);
   known_->setVerticalSpacing(4);
   known_->setHorizontalSpacing(16);
-  known_->setColumnStretch(1, 1);
+  known_->setColumnStretch(0, 2);
+  known_->setColumnStretch(1, 5);
   column->addWidget(known_card_);
   column->addStretch();
   left_ = makeScroll(inside);
   left_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  left_->setFixedWidth(Look::px(344));
+  left_->setFixedWidth(Look::px(356));
   return left_;
 }
 
@@ -456,14 +457,13 @@ void PatientScreen::showKnown() {
   known_card_->setVisible(!summary_.known.empty());
   int row = 0;
   for (const LastKnown& known : summary_.known) {
-    known_->addWidget(makeLine(known.name, TypeRole::Small, QStringLiteral("secondary")), row, 0);
+    known_->addWidget(makeLabel(known.name, TypeRole::Small, QStringLiteral("secondary")), row, 0);
     auto* value = new QWidget;
     auto* line = new QHBoxLayout(value);
     line->setContentsMargins(0, 0, 0, 0);
     line->setSpacing(8);
-    line->addWidget(makeLine(known.value, TypeRole::Chip));
+    line->addWidget(makeLabel(known.value, TypeRole::Chip), 1);
     line->addWidget(makeLine(dayMonth(known.date), TypeRole::Small, QStringLiteral("secondary")));
-    line->addStretch();
     known_->addWidget(value, row++, 1);
   }
 }
@@ -558,7 +558,7 @@ void PatientScreen::placeAt(FootSide side, const QString& place) {
   known_card_->hide();
   form_->show();
   // Once the layout has made room for it.
-  QTimer::singleShot(0, form_, [this] { left_->ensureWidgetVisible(form_, 0, 0); });
+  QTimer::singleShot(60, form_, [this] { left_->ensureWidgetVisible(form_, 0, 0); });
 }
 
 void PatientScreen::endPlacing() {

@@ -137,6 +137,8 @@ QWidget* PatientsScreen::makeList() {
   list_->setModel(model_);
   list_->setItemDelegate(new PatientDelegate(list_));
   list_->setUniformItemSizes(true);
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setResizeMode(QListView::Adjust);
   list_->setMouseTracking(true);
   list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -170,6 +172,8 @@ QWidget* PatientsScreen::makeReview() {
   review_list_->setModel(review_model_);
   review_list_->setItemDelegate(new ReviewDelegate(review_list_));
   review_list_->setMouseTracking(true);
+  review_list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  review_list_->setResizeMode(QListView::Adjust);
   review_list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   const auto open = [this](const QModelIndex& at) {
     emit patientChosen(review_model_->items().at(static_cast<std::size_t>(at.row())).patient_id);
