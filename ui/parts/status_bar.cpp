@@ -22,9 +22,9 @@ StatusBar::StatusBar(QWidget* parent) : QWidget(parent) {
   middle_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   use->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   middle_->setAlignment(Qt::AlignCenter);
-  row->addWidget(saved_, 1);
-  row->addWidget(middle_, 1);
-  row->addWidget(use, 1);
+  row->addWidget(saved_, 2);
+  row->addWidget(middle_, 5);
+  row->addWidget(use, 2);
 }
 
 void StatusBar::setSaved(const QString& text) { saved_->setText(text); }
