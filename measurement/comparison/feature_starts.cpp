@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <unordered_map>
 
 namespace tarsus {
 namespace {
@@ -22,7 +23,6 @@ constexpr int kTrials = 6000;
 constexpr std::size_t kAlike = 4;          ///< places of b that a place of a may be
 constexpr double kShortestSide_mm = 25.0;  ///< of a triple: shorter ones say little of the turn
 constexpr double kSideRatio = 0.9;
-constexpr double kNear_mm = 6.0;
 constexpr int kBest = 6;
 
 Features::Ptr featuresOf(const VisitSkin& skin) {
@@ -65,13 +65,61 @@ Alike alikePlaces(const Features& a, const Features& b) {
   return alike;
 }
 
+/// Where skin lies and which way it faces, to some millimetres: a start needs no more, and a look
+/// at the surface itself takes a hundred times as long.
+class CoarseSkin {
+ public:
+  explicit CoarseSkin(const VisitSkin& skin) {
+    for (std::size_t i = 0; i < skin.positions_mm.size(); ++i) {
+      const Place middle = placeOf(skin.positions_mm[i]);
+      for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+          for (int z = -1; z <= 1; ++z) {
+            normals_.try_emplace({middle[0] + x, middle[1] + y, middle[2] + z}, Vector3d::Zero())
+                .first->second += skin.normals[i];
+          }
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool holds(const Vector3d& p_mm, const Vector3d& normal) const {
+    constexpr double kFacing = 0.7;
+    const auto found = normals_.find(placeOf(p_mm));
+    return found != normals_.end() && found->second.dot(normal) > kFacing * found->second.norm();
+  }
+
+ private:
+  using Place = std::array<int, 3>;
+  struct Hash {
+    std::size_t operator()(const Place& place) const {
+      std::size_t hash = 0;
+      for (const int k : place) {
+        hash = hash * 1000003U + static_cast<std::size_t>(k + 100000);
+      }
+      return hash;
+    }
+  };
+  static Place placeOf(const Vector3d& p_mm) {
+    constexpr double kCell_mm = 4.0;
+    return {static_cast<int>(std::floor(p_mm.x() / kCell_mm)),
+            static_cast<int>(std::floor(p_mm.y() / kCell_mm)),
+            static_cast<int>(std::floor(p_mm.z() / kCell_mm))};
+  }
+  std::unordered_map<Place, Vector3d, Hash> normals_;
+};
+
 struct Candidate {
   RigidTransform b_from_a = RigidTransform::Identity();
   double support = 0.0;
 };
 
 /// One seeded triple; no support where the lengths of its sides differ.
-Candidate tryTriple(const VisitSkin& a, const VisitSkin& b, const Alike& alike, int trial) {
+Candidate tryTriple(const VisitSkin& a,
+                    const VisitSkin& b,
+                    const CoarseSkin& coarse_b,
+                    const Alike& alike,
+                    int trial) {
   std::mt19937_64 random(0x7a35 + static_cast<std::uint64_t>(trial));
   const auto pick = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   std::array<Vector3d, 3> of_a;
@@ -90,18 +138,11 @@ Candidate tryTriple(const VisitSkin& a, const VisitSkin& b, const Alike& alike, 
     }
   }
   Candidate candidate{.b_from_a = fitPoints(of_a, of_b)};
-  constexpr std::size_t kStride = 15;
-  constexpr double kFew = 25.0;  // looked at before a hopeless pose is given up
+  constexpr std::size_t kStride = 7;
   for (std::size_t i = 0; i < a.positions_mm.size(); i += kStride) {
-    const double looked_at = static_cast<double>(i / kStride);
-    if (looked_at >= kFew && candidate.support < 0.4 * looked_at) {
-      return {};
-    }
-    const auto hit = b.index.nearest(candidate.b_from_a * a.positions_mm[i], kNear_mm);
-    if (hit) {
-      const Vector3d facing = faceNormal(b.surface, static_cast<int>(hit->point.face));
-      candidate.support += facing.dot(candidate.b_from_a.linear() * a.normals[i]) > 0.7 ? 1.0 : 0.0;
-    }
+    const bool held = coarse_b.holds(candidate.b_from_a * a.positions_mm[i],
+                                     candidate.b_from_a.linear() * a.normals[i]);
+    candidate.support += held ? 1.0 : 0.0;
   }
   return candidate;
 }
@@ -134,9 +175,10 @@ Expected<std::vector<RigidTransform>> startsFromFeatures(const VisitSkin& a, con
       return std::vector<RigidTransform>();
     }
     const Alike alike = alikePlaces(*features_a, *features_b);
+    const CoarseSkin coarse_b(b);
     std::vector<Candidate> candidates(kTrials);
     parallelFor(kTrials, [&](int trial) {
-      candidates[static_cast<std::size_t>(trial)] = tryTriple(a, b, alike, trial);
+      candidates[static_cast<std::size_t>(trial)] = tryTriple(a, b, coarse_b, alike, trial);
     });
     return bestOf(std::move(candidates), a.wound_mm);
   } catch (const std::exception& error) {

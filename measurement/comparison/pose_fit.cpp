@@ -45,15 +45,34 @@ Landing landOn(const VisitSkin& other, const Vector3d& p, const Vector3d& normal
   return landing;
 }
 
+Landing landNear(const VisitSkin& other,
+                 const Vector3d& p,
+                 const Vector3d& normal,
+                 double reach_mm) {
+  Landing landing;
+  const auto nearest = other.samples->nearest(p, reach_mm);
+  if (!nearest) {
+    return landing;
+  }
+  landing.position = other.positions_mm[*nearest];
+  landing.normal = other.normals[*nearest];
+  if (landing.normal.dot(normal) >= kFacing) {
+    landing.kind = SkinMatch::Kind::Found;
+  }
+  return landing;
+}
+
 SkinMatch matchOne(const VisitSkin& from,
                    const VisitSkin& other,
                    const RigidTransform& other_from_from,
                    std::size_t sample,
-                   double reach_mm) {
+                   double reach_mm,
+                   bool rough) {
   SkinMatch match;
   match.at_mm = other_from_from * from.positions_mm[sample];
   match.normal_a = other_from_from.linear() * from.normals[sample];
-  const Landing landing = landOn(other, match.at_mm, match.normal_a, reach_mm);
+  const Landing landing = rough ? landNear(other, match.at_mm, match.normal_a, reach_mm)
+                                : landOn(other, match.at_mm, match.normal_a, reach_mm);
   match.kind = landing.kind;
   match.normal_b = landing.normal;
   const Vector3d mean = (match.normal_a + match.normal_b).normalized();
@@ -116,10 +135,10 @@ std::vector<SkinMatch> matchSkin(const VisitSkin& a,
       SkinMatch& match = matches[static_cast<std::size_t>(i)];
       if (i < count_a) {
         const auto sample = static_cast<std::size_t>(i * effort.stride);
-        match = matchOne(a, b, b_from_a, sample, reach_mm);
+        match = matchOne(a, b, b_from_a, sample, reach_mm, effort.rough);
       } else {
         const auto sample = static_cast<std::size_t>((i - count_a) * effort.stride);
-        match = turnedRound(matchOne(b, a, a_from_b, sample, reach_mm), b_from_a);
+        match = turnedRound(matchOne(b, a, a_from_b, sample, reach_mm, effort.rough), b_from_a);
       }
     }
   });

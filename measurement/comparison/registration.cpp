@@ -90,7 +90,8 @@ class Registrar {
   /// The starts that fit best after a short fit, no two of them alike.
   [[nodiscard]] std::vector<Pose> sortedOut(const std::vector<RigidTransform>& starts) const {
     const int samples = static_cast<int>(a_.positions_mm.size());
-    const MatchEffort few{.stride = std::max(1, samples / kCoarseSamples), .both = false};
+    const MatchEffort few{
+        .stride = std::max(1, samples / kCoarseSamples), .both = false, .rough = true};
     std::vector<Pose> poses(starts.size());
     parallelFor(static_cast<int>(starts.size()), [&](int i) {
       const auto k = static_cast<std::size_t>(i);
@@ -225,15 +226,28 @@ class Registrar {
   PoseCertainty certainty_;
 };
 
-std::vector<RigidTransform> allStarts(const VisitSkin& a, const VisitSkin& b) {
+std::vector<RigidTransform> nearStarts(const VisitSkin& a, const VisitSkin& b) {
   std::vector<RigidTransform> starts = startsFromLandmarks(a, b);
   for (const RigidTransform& start : startsFromOutlines(a, b)) {
     starts.push_back(start);
   }
-  if (const auto features = startsFromFeatures(a, b)) {  // the outlines do without
-    starts.insert(starts.end(), features->begin(), features->end());
-  }
   return starts;
+}
+
+/// From where the wounds lie on one another; where that leads to no pose that can be accepted, from
+/// the skin's features too, which take as long as all the rest.
+Registration laid(const VisitSkin& a,
+                  const VisitSkin& b,
+                  std::vector<RigidTransform> starts,
+                  const RegistrationOptions& options) {
+  Registration result = Registrar(a, b, options).run(starts);
+  if (!result.accepted) {
+    if (const auto features = startsFromFeatures(a, b)) {
+      starts.insert(starts.end(), features->begin(), features->end());
+      result = Registrar(a, b, options).run(starts);
+    }
+  }
+  return result;
 }
 
 /// Whether the points span a plane, so that they fix a pose.
@@ -270,7 +284,7 @@ Expected<Registration> registerVisits(const VisitSurface& a,
   if (!skin_b) {
     return tl::unexpected(skin_b.error());
   }
-  return Registrar(*skin_a, *skin_b, options).run(allStarts(*skin_a, *skin_b));
+  return laid(*skin_a, *skin_b, nearStarts(*skin_a, *skin_b), options);
 }
 
 Expected<Registration> registerByPairs(const VisitSurface& a,
@@ -296,10 +310,10 @@ Expected<Registration> registerByPairs(const VisitSurface& a,
     of_b.push_back(pair.b_mm);
   }
   std::vector<RigidTransform> starts{fitPoints(of_a, of_b)};
-  for (const RigidTransform& start : allStarts(*skin_a, *skin_b)) {
+  for (const RigidTransform& start : nearStarts(*skin_a, *skin_b)) {
     starts.push_back(start);  // what the pairs may be wrong about
   }
-  Registration result = Registrar(*skin_a, *skin_b, options).run(starts);
+  Registration result = laid(*skin_a, *skin_b, std::move(starts), options);
   for (std::size_t i = 0; i < pairs.size() && result.accepted; ++i) {
     const double off = (result.b_from_a * of_a[i] - of_b[i]).norm();
     if (off > kPairsOff_mm) {

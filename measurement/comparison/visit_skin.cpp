@@ -223,6 +223,7 @@ Expected<VisitSkin> openVisitSkin(const VisitSurface& visit, const RegistrationO
     return fail(ErrorCode::SurfaceIncomplete,
                 "too little skin was scanned between 10 and 60 mm from the wound");
   }
+  skin.samples.emplace(skin.positions_mm);
   describeWound(*site, skin);
   return skin;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measurement/comparison/registration.h"
+#include "measurement/comparison/sample_tree.h"
 #include "reconstruction/scene/mesh_index.h"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct VisitSkin {
   Eigen::Vector3d wound_mm = Eigen::Vector3d::Zero();  ///< the outline's middle
   Eigen::Vector3d outward = Eigen::Vector3d::UnitZ();  ///< mean normal of the skin around it
   std::optional<Landmarks> landmarks;
+  std::optional<SampleTree> samples;  ///< of the positions; always there once opened
 };
 
 /// @errors OutlineInvalid, SurfaceIncomplete

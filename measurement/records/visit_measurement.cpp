@@ -1,10 +1,12 @@
 #include "measurement/records/visit_measurement.h"
 
 #include "measurement/records/subjects.h"
+#include "measurement/wound/wound_view.h"
 #include "reconstruction/base/atomic_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace tarsus {
@@ -92,6 +94,16 @@ Expected<Measurement> lastMeasurement(Store& store, std::string_view visit_id) {
   return std::move(all->back());
 }
 
+/// What lists and trends show of a visit without its model, to 0.01 mm.
+json sketchOf(const MeasuredModel& measured) {
+  const WoundView view = viewOf(measured.foot.mesh, measured.wound, measured.landmarks);
+  json points = json::array();
+  for (const Eigen::Vector2d& p : outlineInView(measured.wound, view)) {
+    points.push_back({std::round(100.0 * p.x()) / 100.0, std::round(100.0 * p.y()) / 100.0});
+  }
+  return {{"outline_mm", points}, {"oriented", view.oriented}};
+}
+
 /// Leaves of the two documents that differ; numbers are compared as they are, not as printed.
 std::vector<Difference> differencesOf(const json& stored, const json& now) {
   std::vector<Difference> differences;
@@ -147,6 +159,7 @@ Expected<Measurement> measureVisit(Store& store,
             {.visit_id = std::string(visit_id),
              .numbers = numbers,
              .outline = readJson(files.outline),
+             .sketch = sketchOf(*measured),
              .options = optionsOf(files),
              .versions = {{"program", version}, {"method", measured->wound.numbers.method}},
              .scan_sha256 = scanHashOf(measured->foot)},

@@ -81,6 +81,7 @@ struct Measurement {
   std::string visit_id;
   nlohmann::json numbers;  ///< measurement.json
   nlohmann::json outline;  ///< as traced
+  nlohmann::json sketch;   ///< "outline_mm": as one looks at the wound (wound_view.h); may be null
   nlohmann::json options;
   nlohmann::json versions;  ///< program and methods
   std::string scan_sha256;

@@ -3,6 +3,7 @@
 #include "measurement/report/depth_colors.h"
 #include "measurement/report/depth_contours.h"
 #include "measurement/report/section_profile.h"
+#include "measurement/wound/wound_view.h"
 #include "reconstruction/base/require.h"
 #include "reconstruction/scene/mesh_picture.h"
 
@@ -26,81 +27,9 @@ constexpr double kOverSkin_mm = 0.05;     ///< lifts the coloured bed off the sa
 constexpr Rgb8 kPaper{255, 255, 255};
 constexpr Rgb8 kSkinGrey{226, 226, 226};
 
-Eigen::Vector3d meanNormal(const TriangleMesh& mesh) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3i& face : mesh.faces) {
-    const Eigen::Vector3d a = mesh.vertices[static_cast<std::size_t>(face[0])].cast<double>();
-    const Eigen::Vector3d b = mesh.vertices[static_cast<std::size_t>(face[1])].cast<double>();
-    const Eigen::Vector3d c = mesh.vertices[static_cast<std::size_t>(face[2])].cast<double>();
-    sum += (b - a).cross(c - a);
-  }
-  return sum;
-}
-
-Eigen::Vector3d towardViewer(const MeasuredWound& wound) {
-  for (const TriangleMesh* mesh : {&wound.reference, &wound.bed}) {
-    const Eigen::Vector3d normal = meanNormal(*mesh);
-    if (normal.norm() > 1e-9) {
-      return normal.normalized();
-    }
-  }
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // the outline's own, counter-clockwise outside
-  for (std::size_t i = 0; i < wound.outline_mm.size(); ++i) {
-    sum += (wound.outline_mm[i] - wound.outline_mm[0])
-               .cross(wound.outline_mm[(i + 1) % wound.outline_mm.size()] - wound.outline_mm[0]);
-  }
-  return sum.norm() > 1e-9 ? sum.normalized().eval() : Eigen::Vector3d::UnitZ().eval();
-}
-
-/// Direction of the foot's greatest extent; its sign is fixed by its largest coordinate.
-Eigen::Vector3d longAxis(const TriangleMesh& mesh) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : mesh.vertices) {
-    mean += p.cast<double>() / static_cast<double>(mesh.vertices.size());
-  }
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3f& p : mesh.vertices) {
-    spread += (p.cast<double>() - mean) * (p.cast<double>() - mean).transpose();
-  }
-  Eigen::Vector3d axis =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-  Eigen::Index largest = 0;
-  axis.cwiseAbs().maxCoeff(&largest);
-  return axis[largest] < 0.0 ? (-axis).eval() : axis;
-}
-
-struct Directions {
-  Eigen::Vector3d toward_viewer;
-  Eigen::Vector3d right;
-  Eigen::Vector3d up;
-  bool oriented = false;
-};
-
-Directions directionsOf(const TexturedMesh& foot,
-                        const MeasuredWound& wound,
-                        const std::optional<Landmarks>& landmarks) {
-  Directions d;
-  d.toward_viewer = towardViewer(wound);
-  const auto inPlane = [&](const Eigen::Vector3d& v) {
-    return (v - v.dot(d.toward_viewer) * d.toward_viewer).eval();
-  };
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  if (landmarks) {
-    up = inPlane(landmarks->toe_mm - landmarks->heel_mm);
-    // A wound seen along the foot (tip of a toe, back of the heel) has no clock to speak of.
-    d.oriented = up.norm() > 0.2 * (landmarks->toe_mm - landmarks->heel_mm).norm();
-  }
-  if (!d.oriented) {
-    up = inPlane(longAxis(foot.mesh));
-  }
-  d.up = up.norm() > 1e-6 ? up.normalized().eval() : d.toward_viewer.unitOrthogonal().eval();
-  d.right = d.up.cross(d.toward_viewer);
-  return d;
-}
-
 /// Extent of points in the view's plane, around the origin given.
 Eigen::AlignedBox2d extentOf(const std::vector<Eigen::Vector3d>& points,
-                             const Directions& d,
+                             const WoundView& d,
                              const Eigen::Vector3d& origin) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& p : points) {
@@ -111,7 +40,7 @@ Eigen::AlignedBox2d extentOf(const std::vector<Eigen::Vector3d>& points,
 
 int dots(double printed_mm) { return static_cast<int>(std::lround(printed_mm * kDotsPerMm)); }
 
-ViewFrame closeFrame(const MeasuredWound& wound, const Directions& d) {
+ViewFrame closeFrame(const MeasuredWound& wound, const WoundView& d) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : wound.outline_mm) {
     mean += p / static_cast<double>(wound.outline_mm.size());
@@ -131,7 +60,7 @@ ViewFrame closeFrame(const MeasuredWound& wound, const Directions& d) {
           .mm_per_px = kCloseSide_mm / scale / dots(kCloseSide_mm)};
 }
 
-ViewFrame footFrame(const TexturedMesh& foot, const Directions& d) {
+ViewFrame footFrame(const TexturedMesh& foot, const WoundView& d) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3f& p : foot.mesh.vertices) {
     points.push_back(p.cast<double>());
@@ -191,7 +120,7 @@ std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& point
 void takeFoot(ReportContent& content,
               const TexturedMesh& foot,
               const MeasuredWound& wound,
-              const Directions& d) {
+              const WoundView& d) {
   PictureOptions options;
   options.width_px = dots(kFootWidth_mm);
   options.height_px = dots(kFootHeight_mm);
@@ -262,7 +191,7 @@ void takeDepth(ReportContent& content,
 CloseView closeViewOf(const TexturedMesh& foot,
                       const MeasuredWound& wound,
                       const std::optional<Landmarks>& landmarks) {
-  const Directions d = directionsOf(foot, wound, landmarks);
+  const WoundView d = viewOf(foot.mesh, wound, landmarks);
   return {closeFrame(wound, d), d.oriented};
 }
 
@@ -286,20 +215,12 @@ ColorImage overlaidPicture(const TriangleMesh& skin,
   return takePicture(scene, all_colors, view, options);
 }
 
-std::vector<Eigen::Vector2d> outlineForTrends(const ReportContent& content) {
-  std::vector<Eigen::Vector2d> outline;
-  for (const Eigen::Vector2d& point : content.outline_px) {
-    outline.push_back(content.close_mm_per_px * point);
-  }
-  return outline;
-}
-
 ReportContent illustrate(const TexturedMesh& foot,
                          const MeasuredWound& wound,
                          const std::optional<Landmarks>& landmarks) {
   TARSUS_REQUIRE(wound.outline_mm.size() >= 3, "a measured wound has an outline");
   TARSUS_REQUIRE(!foot.mesh.faces.empty(), "a wound lies on a surface");
-  const Directions d = directionsOf(foot, wound, landmarks);
+  const WoundView d = viewOf(foot.mesh, wound, landmarks);
   const ViewFrame view = closeFrame(wound, d);
   ReportContent content;
   content.measurement = wound.numbers;

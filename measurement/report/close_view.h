@@ -33,7 +33,4 @@ struct CloseView {
                                          const ViewFrame& view,
                                          const PictureOptions& options);
 
-/// The outline of this content as a ReportVisit keeps it.
-[[nodiscard]] std::vector<Eigen::Vector2d> outlineForTrends(const ReportContent& content);
-
 }  // namespace tarsus

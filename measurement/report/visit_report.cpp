@@ -1,21 +1,16 @@
 #include "measurement/report/visit_report.h"
 
-#include "measurement/comparison/comparison.h"
 #include "measurement/records/record_json.h"
 #include "measurement/records/users.h"
-#include "measurement/records/visit_measurement.h"
-#include "measurement/report/change_picture.h"
 #include "measurement/report/close_view.h"
 #include "measurement/report/scan_quality.h"
-#include "measurement/report/section_profile.h"
+#include "measurement/report/visit_models.h"
 #include "measurement/report/visit_rows.h"
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/base/sha256.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <span>
 #include <utility>
@@ -25,60 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr double kDay_ms = 86'400'000.0;
-
-/// A visit with its numbers and, once it was asked for, its model.
-struct Measured {
-  Visit visit;
-  WoundMeasurement numbers;
-  std::optional<MeasuredModel> model;
-  std::vector<Eigen::Vector2d> outline_mm;  ///< where the model was let go
-  std::optional<TissueShares> tissue;
-};
-
-/// The measured visits of one wound up to this one, which is the last.
-Expected<std::vector<Measured>> measuredVisits(const PatientHistory& history, const Visit& visit) {
-  std::map<std::string, const Measurement*> last;
-  for (const Measurement& measurement : history.measurements) {
-    last[measurement.visit_id] = &measurement;
-  }
-  std::vector<Measured> measured;
-  for (const Visit& each : history.visits) {
-    const bool counts = each.wound_id == visit.wound_id && each.id != visit.id &&
-                        each.content.taken_at_ms < visit.content.taken_at_ms;
-    if (counts && last.contains(each.id)) {
-      measured.push_back({each, measurementFromJson(last.at(each.id)->numbers), {}, {}, {}});
-    }
-  }
-  if (!last.contains(visit.id)) {
-    return fail(ErrorCode::RecordMissing, "visit " + visit.id + " was not measured");
-  }
-  measured.push_back({visit, measurementFromJson(last.at(visit.id)->numbers), {}, {}, {}});
-  return measured;
-}
-
-Expected<void> openModel(Store& store, Measured& measured, const fs::path& folder) {
-  const auto files = visitFiles(store, measured.visit, folder / measured.visit.id);
-  if (!files) {
-    return tl::unexpected(files.error());
-  }
-  // The geometry alone: the numbers and their intervals are those that the visit keeps.
-  auto model = measureFiles(*files, {.intervals = false});
-  if (!model) {
-    return tl::unexpected(model.error());
-  }
-  measured.model = std::move(*model);
-  return {};
-}
-
-/// Keeps of a visit between the first and the one before what the trends show.
-void keepOutline(Measured& measured) {
-  const MeasuredModel& model = *measured.model;
-  measured.outline_mm = outlineForTrends(illustrate(model.foot, model.wound, model.landmarks));
-  measured.tissue = model.tissue;
-  measured.model.reset();
-}
 
 NameOfUser namesOf(Store& store) {
   return [&store, names = std::map<std::string, std::string>()](const std::string& id) mutable {
@@ -149,90 +90,6 @@ std::string sha256Of(const Visit& visit, const WoundMeasurement& numbers) {
   return sum.hex();
 }
 
-MeasuredVisit comparedVisit(const Measured& visit) {
-  return {.surface = {.foot = visit.model->foot,
-                      .outline = visit.model->outline,
-                      .landmarks = visit.model->landmarks,
-                      .left_out = {}},
-          .numbers = visit.numbers};
-}
-
-/// This visit against the one before it.
-Expected<void> addComparison(std::span<Measured> visits, ReportContent& content) {
-  const Measured& now = visits.back();
-  const Measured& before = visits[visits.size() - 2];
-  const double days =
-      static_cast<double>(now.visit.content.taken_at_ms - before.visit.content.taken_at_ms) /
-      kDay_ms;
-  auto compared = compareVisits(comparedVisit(before), comparedVisit(now), days);
-  if (!compared) {
-    content.why_no_comparison = compared.error().detail;
-    return {};
-  }
-  const auto wound = [](const Measured& m) {
-    return ComparedWound{
-        .foot = m.model->foot, .wound = m.model->wound, .landmarks = m.model->landmarks};
-  };
-  ReportComparison shown = illustrateComparison(wound(before), wound(now), std::move(*compared));
-  shown.later_visit = static_cast<int>(visits.size());
-  shown.earlier_visit = shown.later_visit - 1;
-  shown.earlier_date = isoTime(before.visit.content.taken_at_ms);
-  shown.later_date = isoTime(now.visit.content.taken_at_ms);
-  shown.days = days;
-  content.comparison = std::move(shown);
-  return {};
-}
-
-void addVisits(std::span<const Measured> visits, ReportContent& content) {
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    const Measured& each = visits[i];
-    ReportVisit shown{.number = static_cast<int>(i) + 1,
-                      .date = isoTime(each.visit.content.taken_at_ms),
-                      .measurement = each.numbers,
-                      .outline_mm = {},
-                      .tissue = std::nullopt,
-                      .undermining_mm = std::nullopt,
-                      .tunnel_mm = std::nullopt};
-    shown.tissue = each.tissue;
-    shown.outline_mm = each.outline_mm;
-    if (each.model) {
-      shown.tissue = each.model->tissue;
-      shown.outline_mm = i + 1 == visits.size()
-                             ? outlineForTrends(content)
-                             : outlineForTrends(illustrate(
-                                   each.model->foot, each.model->wound, each.model->landmarks));
-    }
-    content.visits.push_back(std::move(shown));
-  }
-}
-
-/// The first visit's bed in this visit's section, once its skin lies on this visit's.
-void addFirstBed(std::span<const Measured> visits, ReportContent& content) {
-  if (visits.size() < 2 || !content.section) {
-    return;
-  }
-  const MeasuredModel& first = *visits.front().model;
-  RigidTransform now_from_first = RigidTransform::Identity();
-  if (visits.size() == 2) {
-    if (!content.comparison || !content.comparison->result.registration.accepted) {
-      return;
-    }
-    now_from_first = content.comparison->result.registration.b_from_a;
-  } else {
-    const auto compared =
-        compareVisits(comparedVisit(first), comparedVisit(*visits.back().model), 1.0);
-    if (!compared || !compared->registration.accepted) {
-      return;
-    }
-    now_from_first = compared->registration.b_from_a;
-  }
-  TriangleMesh moved{.vertices = first.foot.mesh.vertices, .faces = first.foot.mesh.faces};
-  for (Eigen::Vector3f& vertex : moved.vertices) {
-    vertex = (now_from_first * vertex.cast<double>()).cast<float>();
-  }
-  content.section->first_bed_mm = lineInSection(moved, *content.section);
-}
-
 bool sameDay(const Visit& a, const Visit& b) {
   return isoTime(a.content.taken_at_ms).substr(0, 10) ==
          isoTime(b.content.taken_at_ms).substr(0, 10);
@@ -260,7 +117,7 @@ Expected<void> addOtherWounds(Store& store,
     other.surface = place.surface;
     other.site = place.site;
     other.report_id = each.id;
-    Measured measured{each, measurementFromJson(last.at(each.id)->numbers), {}, {}, {}};
+    ReportedVisit measured{each, measurementFromJson(last.at(each.id)->numbers), {}, {}};
     other.measurement = measured.numbers;
     if (content.other_wounds.size() < kWithPictures) {
       if (auto opened = openModel(store, measured, folder); !opened) {
@@ -304,26 +161,14 @@ Expected<ReportContent> visitReport(Store& store,
   if (!history) {
     return tl::unexpected(history.error());
   }
-  auto visits = measuredVisits(*history, visit);
+  auto visits = reportedVisits(*history, visit);
   if (!visits) {
     return tl::unexpected(visits.error());
   }
-  // All for their outlines; the first, the one before and this one are kept for pictures.
-  const std::size_t count = visits->size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (job.stopped()) {
-      return fail(ErrorCode::Cancelled);
-    }
-    job.report("report", static_cast<double>(i) / static_cast<double>(count + 1));
-    Measured& each = (*visits)[i];
-    if (auto opened = openModel(store, each, folder); !opened) {
-      return tl::unexpected(opened.error());
-    }
-    if (i > 0 && i + 2 < count) {
-      keepOutline(each);
-    }
+  if (auto opened = openModels(store, *visits, folder, job); !opened) {
+    return tl::unexpected(opened.error());
   }
-  const Measured& now = visits->back();
+  const ReportedVisit& now = visits->back();
   ReportContent content = illustrate(now.model->foot, now.model->wound, now.model->landmarks);
   const NameOfUser name_of = namesOf(store);
   content.measurement = now.numbers;
@@ -342,12 +187,7 @@ Expected<ReportContent> visitReport(Store& store,
       reconstruction.is_object() &&
       reconstruction.value("camera", json::object()).value("model", "") == "Tarsus simulator";
   addVisits(*visits, content);
-  if (count > 1) {
-    if (auto compared = addComparison(*visits, content); !compared) {
-      return tl::unexpected(compared.error());
-    }
-    addFirstBed(*visits, content);
-  }
+  addComparison(*visits, content);
   if (auto added = addOtherWounds(store, *history, visit, folder, content); !added) {
     return tl::unexpected(added.error());
   }
@@ -356,7 +196,7 @@ Expected<ReportContent> visitReport(Store& store,
   }
   addHistory(*versions, name_of, content);
   std::vector<Visit> forms;
-  for (const Measured& each : *visits) {
+  for (const ReportedVisit& each : *visits) {
     forms.push_back(each.visit);
   }
   addEvents(forms, content);

@@ -86,6 +86,32 @@ double reachToViewer(const TriangleMesh& mesh,
   return reach;
 }
 
+/// The faces that lie before the picture, or partly: no ray meets the others.
+TriangleMesh facesInView(const TriangleMesh& mesh,
+                         const ViewFrame& view,
+                         const PictureOptions& options) {
+  const double half_x_mm = 0.5 * view.mm_per_px * (options.width_px + 1);
+  const double half_y_mm = 0.5 * view.mm_per_px * (options.height_px + 1);
+  std::vector<Eigen::Vector2d> places;
+  places.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    const Eigen::Vector3d offset_mm = vertex.cast<double>() - view.center_mm;
+    places.emplace_back(offset_mm.dot(view.right), offset_mm.dot(view.up));
+  }
+  TriangleMesh seen{.vertices = mesh.vertices};
+  for (const Eigen::Vector3i& face : mesh.faces) {
+    Eigen::AlignedBox2d box;
+    for (const int v : face) {
+      box.extend(places[static_cast<std::size_t>(v)]);
+    }
+    if (box.min().x() < half_x_mm && box.max().x() > -half_x_mm && box.min().y() < half_y_mm &&
+        box.max().y() > -half_y_mm) {
+      seen.faces.push_back(face);
+    }
+  }
+  return seen;
+}
+
 /// Mean colour of samples x samples rays in each pixel of row v.
 /// @param eye  the view, with its centre moved to where the rays start
 void takeRow(const Studio& studio,
@@ -166,11 +192,12 @@ ColorImage takePicture(const TriangleMesh& mesh,
   TARSUS_REQUIRE(options.samples_per_axis > 0 && view.mm_per_px > 0.0, "a picture has a scale");
   TARSUS_REQUIRE(colors.empty() || colors.size() == mesh.vertices.size(),
                  "a colour for each vertex, or none");
-  const MeshIndex index(mesh);
+  const TriangleMesh seen = facesInView(mesh, view, options);
+  const MeshIndex index(seen);
   const auto computed = mesh.normals.empty() ? vertexNormals(mesh) : std::vector<Eigen::Vector3f>();
   const bool colored = options.textured && !colors.empty();
   const Eigen::Vector3d toward = view.right.cross(view.up);
-  const Studio studio{.mesh = mesh,
+  const Studio studio{.mesh = seen,
                       .normals = mesh.normals.empty() ? computed : mesh.normals,
                       .colors = colored ? colors : std::span<const Rgb8>(),
                       .index = index,
