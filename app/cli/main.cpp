@@ -23,14 +23,17 @@ std::stop_source& stopSource() {
   return source;
 }
 
-/// Ctrl+C asks the running stage to stop, so that temporary files are cleaned up.
+/// Ctrl+C, and whoever ends the program kindly, asks the running stage to stop, so that temporary
+/// files are cleaned up.
 void stopOnInterrupt() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told as a full disk
   stopSource();                   // made now: a signal handler must not
-  std::signal(SIGINT, [](int) {
-    stopSource().request_stop();
-    std::signal(SIGINT, SIG_DFL);  // the second one ends at once
-  });
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int which) {
+      stopSource().request_stop();
+      std::signal(which, SIG_DFL);  // the second one ends at once
+    });
+  }
 }
 
 int finish(const Command& command, const nlohmann::json& result, int code) {

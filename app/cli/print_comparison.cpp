@@ -87,7 +87,8 @@ void printChange(const Row& row,
 
 void printRates(const VisitComparison& comparison) {
   if (comparison.par_percent) {
-    std::printf("Area reduced by %.0f %%", rounded(*comparison.par_percent, 0));
+    const double percent = rounded(*comparison.par_percent, 0);
+    std::printf("Area %s by %.0f %%", percent < 0.0 ? "grew" : "reduced", std::abs(percent));
     if (comparison.gilman_mm_per_week) {
       std::printf("; edge advanced by %.2f mm per week (Gilman 1990)",
                   rounded(*comparison.gilman_mm_per_week, 2));

@@ -175,14 +175,28 @@ Expected<std::vector<AuditEntry>> auditEntries(Database& database,
   return entries;
 }
 
-Expected<void> writeAuditAnchor(Database& database, const std::filesystem::path& file) {
+Expected<void> writeAuditAnchor(Database& database,
+                                const std::filesystem::path& file,
+                                AnchorStep step) {
   const auto head = headOf(database);
   if (!head) {
     return tl::unexpected(head.error());
   }
-  const auto anchor = readAnchor(file);
-  if (anchor && anchor->entries >= head->entry) {
-    return {};
+  if (step == AnchorStep::Follow) {
+    const auto anchor = readAnchor(file);
+    if (!anchor) {
+      return tl::unexpected(anchor.error());
+    }
+    if (anchor->entries >= head->entry) {
+      return {};
+    }
+    const auto at = database.query("SELECT hash FROM audit WHERE entry = ?", {anchor->entries});
+    if (!at) {
+      return tl::unexpected(at.error());
+    }
+    if (at->empty() || hexOf(at->front().bytes(0)) != anchor->hash) {
+      return fail(ErrorCode::StoreDamaged, file.string() + " belongs to another audit trail");
+    }
   }
   const json object = {{"entries", head->entry}, {"hash", hexOf(head->hash)}};
   return writeTextAtomically(file, object.dump() + "\n");

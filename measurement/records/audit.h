@@ -36,10 +36,15 @@ struct AuditEntry {
                                                              std::int64_t first,
                                                              std::int64_t last);
 
-/// Keeps the head of the chain in a second place, so that a trail cut off at its end is found.
-/// An older head is never written over a newer one.
+/// Follow: the place must stand on this very chain; one that does not, or is gone, is evidence and
+/// stays as it is, for verifyAudit to tell. Begin: whatever was there is written over.
+enum class AnchorStep { Begin, Follow };
+/// Keeps the head of the chain in a second place, so that a trail cut off at its end, or put back
+/// to an older one, is found. An older head is never written over a newer one.
+/// @errors FileMissing, StoreDamaged (Follow), FileUnwritable
 [[nodiscard]] Expected<void> writeAuditAnchor(Database& database,
-                                              const std::filesystem::path& file);
+                                              const std::filesystem::path& file,
+                                              AnchorStep step = AnchorStep::Follow);
 
 struct AuditVerdict {
   std::int64_t entries = 0;

@@ -188,7 +188,8 @@ Expected<std::size_t> writeTables(Store& store, const fs::path& file) {
   if (!rows) {
     return rows;
   }
-  if (auto anchored = writeAuditAnchor(*copy, file.parent_path() / kAnchor); !anchored) {
+  if (auto anchored = writeAuditAnchor(*copy, file.parent_path() / kAnchor, AnchorStep::Begin);
+      !anchored) {
     return tl::unexpected(anchored.error());
   }
   // One file, whole in itself: the journal's mode is kept in it.
@@ -247,8 +248,19 @@ Expected<BackupSummary> backUp(Store& store, const fs::path& target) {
   if (auto who = store.who(Permission::BackUp); !who) {
     return tl::unexpected(who.error());
   }
+  std::error_code unknown;
+  const fs::path own = fs::weakly_canonical(store.anchorFile().parent_path(), unknown);
+  const fs::path inside = fs::weakly_canonical(target, unknown).lexically_relative(own);
+  if (!inside.empty() && *inside.begin() != "..") {
+    return fail(
+        ErrorCode::BadOption,
+        target.string() + " lies inside the records themselves; a backup belongs elsewhere");
+  }
   if (auto empty = requireEmpty(target); !empty) {
     return tl::unexpected(empty.error());
+  }
+  if (auto noted = noteAct(store, Permission::BackUp, "back up"); !noted) {
+    return tl::unexpected(noted.error());
   }
   const auto rows = writeTables(store, target / kTables);
   if (!rows) {

@@ -1,5 +1,6 @@
 #include "measurement/records/check.h"
 
+#include "measurement/records/content.h"
 #include "measurement/records/revisions.h"
 
 namespace tarsus {
@@ -136,6 +137,26 @@ Expected<StoreCheck> checkStore(Store& store) {
                         .and_then([&] { return checkHeads(store, check); })
                         .and_then([&] { return checkFiles(store, check); });
   return done ? Expected<StoreCheck>(std::move(check)) : tl::unexpected(done.error());
+}
+
+Expected<void> acceptAuditTrail(Store& store, std::string_view reason) {
+  if (isBlank(reason)) {
+    return fail(ErrorCode::RecordInvalid, "to accept the audit trail needs a reason");
+  }
+  auto change = StoreChange::begin(store, Permission::ManageUsers);
+  if (!change) {
+    return tl::unexpected(change.error());
+  }
+  const auto verdict = verifyAudit(store.database(), store.vault(), store.anchorFile());
+  if (!verdict) {
+    return tl::unexpected(verdict.error());
+  }
+  const auto done = noteAct(store,
+                            Permission::ManageUsers,
+                            "accept the trail",
+                            std::string(reason) + " (found: " + verdict->finding + ")")
+                        .and_then([&] { return change->commit(); });
+  return done ? writeAuditAnchor(store.database(), store.anchorFile(), AnchorStep::Begin) : done;
 }
 
 }  // namespace tarsus

@@ -5,6 +5,7 @@
 #include "reconstruction/base/error.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tarsus {
@@ -21,5 +22,10 @@ struct StoreCheck {
 /// Finds what was changed, removed or put in outside this program; what was erased lawfully has
 /// its tombstone and is no finding.
 [[nodiscard]] Expected<StoreCheck> checkStore(Store& store);
+
+/// After a finding about the trail's end was looked into, as when tables were restored by hand:
+/// goes on from the trail as it is. Finding and reason become an entry of it. Administrators only.
+/// @errors NotPermitted, RecordInvalid (no reason)
+[[nodiscard]] Expected<void> acceptAuditTrail(Store& store, std::string_view reason);
 
 }  // namespace tarsus

@@ -1,5 +1,7 @@
 #include "measurement/records/content.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 
@@ -50,6 +52,31 @@ std::vector<int> ContentReader::integers(const char* key) const {
 tl::unexpected<Error> ContentReader::damaged(const char* key) const {
   return fail(ErrorCode::StoreDamaged,
               "record " + revision_->record + ": its " + key + " cannot be read");
+}
+
+bool isBlank(std::string_view text) {
+  return text.find_first_not_of(" \t\r\n\v\f") == std::string_view::npos;
+}
+
+bool isName(std::string_view text) {
+  constexpr std::size_t kLongest = 300;
+  return !isBlank(text) && text.size() <= kLongest && std::ranges::none_of(text, [](char letter) {
+    const auto code = static_cast<unsigned char>(letter);
+    return code < 0x20 || code == 0x7f;
+  });
+}
+
+std::string dayOf(std::int64_t at_ms) {
+  const std::chrono::sys_time<std::chrono::milliseconds> at{std::chrono::milliseconds(at_ms)};
+  const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(at));
+  std::array<char, 48> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "%04d-%02u-%02u",
+                static_cast<int>(day.year()),
+                static_cast<unsigned>(day.month()),
+                static_cast<unsigned>(day.day()));
+  return text.data();
 }
 
 bool isDate(std::string_view text) {

@@ -28,6 +28,14 @@ class ContentReader {
   const Revision* revision_;
 };
 
+/// Nothing but spaces.
+[[nodiscard]] bool isBlank(std::string_view text);
+/// A name as people write it: something to read, no line breaks or other control characters, and
+/// not endless.
+[[nodiscard]] bool isName(std::string_view text);
+/// The day of a time, written 2026-03-01, UTC.
+[[nodiscard]] std::string dayOf(std::int64_t at_ms);
+
 /// A date of the calendar, written 2026-03-01.
 [[nodiscard]] bool isDate(std::string_view text);
 

@@ -81,6 +81,8 @@ Expected<bool> takeNextStep(Database& database, std::span<const MigrationText> s
 
 }  // namespace
 
+Expected<std::int64_t> tablesVersion(Database& database) { return versionOf(database); }
+
 Expected<void> migrate(Database& database, std::span<const MigrationText> steps) {
   Expected<bool> more = true;
   while (more && *more) {

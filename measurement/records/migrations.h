@@ -14,6 +14,9 @@ struct MigrationText {
 };
 [[nodiscard]] std::span<const MigrationText> migrationTexts();
 
+/// 0: there are no tables yet.
+[[nodiscard]] Expected<std::int64_t> tablesVersion(Database& database);
+
 /// Brings the tables to this program's version, each step in its own transaction.
 /// @errors StoreNewer (tables of a later program), those of Database
 [[nodiscard]] Expected<void> migrate(Database& database,

@@ -12,13 +12,25 @@ namespace {
 
 using nlohmann::json;
 
-Expected<void> check(const PatientFields& fields) {
-  if (fields.family_name.empty() && fields.given_name.empty()) {
+Expected<void> check(const Store& store, const PatientFields& fields) {
+  if (isBlank(fields.family_name) && isBlank(fields.given_name)) {
     return fail(ErrorCode::RecordInvalid, "a patient needs a name");
+  }
+  for (const std::string* text : {&fields.family_name, &fields.given_name, &fields.identifier}) {
+    if (!text->empty() && !isName(*text)) {
+      return fail(ErrorCode::RecordInvalid,
+                  "names and numbers of a patient stand on one line, of at most 300 letters");
+    }
   }
   if (!fields.birth_date.empty() && !isDate(fields.birth_date)) {
     return fail(ErrorCode::RecordInvalid,
                 "birth date \"" + fields.birth_date + "\" is no date like 1950-12-31");
+  }
+  // Nobody alive is older; a mistyped century is.
+  if (!fields.birth_date.empty() && (fields.birth_date < "1900-01-01" ||
+                                     fields.birth_date > dayOf(store.environment().now_ms()))) {
+    return fail(ErrorCode::RecordInvalid,
+                "birth date " + fields.birth_date + " is before 1900 or lies in the future");
   }
   return {};
 }
@@ -56,7 +68,7 @@ Expected<void> refreshIndex(Store& store) {
 }
 
 Expected<Patient> setParent(Store& store, std::string_view id, RevisionEdit edit) {
-  if (edit.reason.empty()) {
+  if (isBlank(edit.reason)) {
     return fail(ErrorCode::RecordInvalid, "merging patients, or undoing it, needs a reason");
   }
   return addRevision(store, RecordKind::Patient, id, std::move(edit)).and_then(readPatient);
@@ -78,7 +90,7 @@ Expected<Patient> readPatient(const Revision& revision) {
 
 Expected<Patient> addPatient(Store& store, const PatientFields& fields) {
   return inChange<Patient>(store, Permission::EditRecords, [&](const SignedIn&) {
-    return check(fields)
+    return check(store, fields)
         .and_then([&] {
           return addRecord(store, {.kind = RecordKind::Patient, .content = contentOf(fields)});
         })
@@ -91,7 +103,7 @@ Expected<Patient> editPatient(Store& store,
                               std::int64_t base_revision,
                               const PatientFields& fields) {
   return inChange<Patient>(store, Permission::EditRecords, [&](const SignedIn&) {
-    return check(fields)
+    return check(store, fields)
         .and_then([&] {
           return addRevision(
               store,

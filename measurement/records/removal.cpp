@@ -1,6 +1,7 @@
 #include "measurement/records/removal.h"
 
 #include "measurement/records/audit.h"
+#include "measurement/records/content.h"
 #include "measurement/records/subjects.h"
 
 namespace tarsus {
@@ -127,7 +128,7 @@ Expected<Revision> moveToTrash(Store& store,
     }
     const bool is_signed =
         kind == RecordKind::Visit && revision->state != nameOf(VisitState::Draft);
-    if (is_signed && reason.empty()) {
+    if (is_signed && isBlank(reason)) {
       return fail(ErrorCode::RecordInvalid, "to trash a signed visit needs a reason");
     }
     return addRevision(store,
@@ -183,7 +184,7 @@ Expected<std::vector<Revision>> trash(Store& store) {
 }
 
 Expected<Erasure> erasePatient(Store& store, std::string_view id, std::string_view reason) {
-  if (reason.empty()) {
+  if (isBlank(reason)) {
     return fail(ErrorCode::RecordInvalid, "an erasure needs a reason, without the patient's name");
   }
   const auto released = inChange<Released>(store, Permission::Erase, [&](const SignedIn& who) {

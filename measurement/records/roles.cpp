@@ -24,6 +24,7 @@ constexpr std::array kTable{
     Row{Permission::ManageUsers, "manage users and settings", false, false, true, false},
     Row{Permission::VerifyAudit, "verify the audit trail", true, true, true, true},
     Row{Permission::BackUp, "make a backup", true, true, true, false},
+    Row{Permission::Export, "export records", true, true, true, false},
 };
 
 constexpr std::array<std::string_view, kRoles.size()> kRoleNames{

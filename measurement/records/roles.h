@@ -21,6 +21,7 @@ enum class Permission : std::uint8_t {
   ManageUsers,  ///< and settings
   VerifyAudit,
   BackUp,
+  Export,  ///< take records out, also with names
 };
 
 [[nodiscard]] bool isAllowed(Role role, Permission permission);

@@ -128,24 +128,6 @@ Expected<Opened> openKey(Store& store, const std::string& holder, std::string_vi
                 .store_key = std::move(*store_key)};
 }
 
-Expected<void> note(Store& store,
-                    const SignedIn& user,
-                    std::string action,
-                    std::string details = {}) {
-  auto change = StoreChange::begin(store, Permission::Read);
-  if (!change) {
-    return tl::unexpected(change.error());
-  }
-  auto entry = appendAudit(store.database(),
-                           store.vault(),
-                           {.at_ms = store.environment().now_ms(),
-                            .who = user.id,
-                            .station = store.environment().station,
-                            .action = std::move(action),
-                            .details = std::move(details)});
-  return entry ? change->commit() : tl::unexpected(entry.error());
-}
-
 /// Reads, under the opened key, who this is; nobody stays signed in where that fails.
 Expected<SignedIn> enter(Store& store, Opened opened, std::string_view name) {
   store.signedIn({.id = opened.user_id, .name = std::string(name)}, std::move(opened.store_key));
@@ -213,7 +195,7 @@ Expected<std::string> firstRun(Store& store, std::string_view name, std::string_
     store.lock();
     return tl::unexpected(done.error());
   }
-  std::ignore = writeAuditAnchor(store.database(), store.anchorFile());
+  std::ignore = writeAuditAnchor(store.database(), store.anchorFile(), AnchorStep::Begin);
   return code;
 }
 
@@ -226,10 +208,11 @@ Expected<SignedIn> signIn(Store& store, std::string_view name, std::string_view 
   const std::int64_t failures = opened->failures;
   auto user = enter(store, std::move(*opened), name);
   if (user) {
-    auto noted = note(store,
-                      *user,
-                      "sign in",
-                      failures > 0 ? "after " + std::to_string(failures) + " wrong attempts" : "");
+    auto noted =
+        noteAct(store,
+                Permission::Read,
+                "sign in",
+                failures > 0 ? "after " + std::to_string(failures) + " wrong attempts" : "");
     if (!noted) {
       store.lock();
       return tl::unexpected(noted.error());
@@ -256,7 +239,7 @@ Expected<void> changePassword(Store& store,
     return tl::unexpected(change.error());
   }
   return writeUserKey(store, user->name, user->id, new_password)
-      .and_then([&] { return note(store, *user, "change password"); })
+      .and_then([&] { return noteAct(store, Permission::Read, "change password"); })
       .and_then([&] { return change->commit(); });
 }
 
@@ -291,7 +274,8 @@ Expected<SignedIn> resetPassword(Store& store,
       return tl::unexpected(change.error());
     }
     return writeUserKey(store, user->name, user->id, new_password)
-        .and_then([&] { return note(store, *user, "reset password by recovery code"); })
+        .and_then(
+            [&] { return noteAct(store, Permission::Read, "reset password by recovery code"); })
         .and_then([&] { return change->commit(); });
   }();
   if (!reset) {
@@ -310,8 +294,9 @@ Expected<std::string> renewRecoveryCode(Store& store) {
   if (!code) {
     return code;
   }
-  const auto done =
-      note(store, change->who(), "renew recovery code").and_then([&] { return change->commit(); });
+  const auto done = noteAct(store, Permission::ManageUsers, "renew recovery code").and_then([&] {
+    return change->commit();
+  });
   return done ? std::move(code) : tl::unexpected(done.error());
 }
 

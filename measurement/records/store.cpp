@@ -11,6 +11,29 @@
 
 namespace tarsus {
 
+namespace {
+
+/// New tables beside the files of earlier records: what held them was emptied, and new ones would
+/// cover that up.
+Expected<void> refuseEmptied(const StorePlace& place, Database& database) {
+  std::error_code error;
+  if (!std::filesystem::exists(place.folder / "audit.anchor", error)) {
+    return {};
+  }
+  const auto version = tablesVersion(database);
+  if (!version) {
+    return tl::unexpected(version.error());
+  }
+  return *version > 0
+             ? Expected<void>()
+             : fail(ErrorCode::StoreDamaged,
+                    "the tables are empty, but files of earlier records lie beside them in " +
+                        place.folder.string() +
+                        "; restore a backup into a new folder, and keep this one as it is");
+}
+
+}  // namespace
+
 Store::Store(std::filesystem::path folder, Database database, StoreEnvironment environment)
     : folder_(std::move(folder)),
       environment_(std::move(environment)),
@@ -29,6 +52,9 @@ Expected<Store> Store::open(const StorePlace& place, StoreEnvironment environmen
                                  : Database::openSqlite(place.folder / "records.sqlite");
   if (!database) {
     return tl::unexpected(database.error());
+  }
+  if (auto whole = refuseEmptied(place, *database); !whole) {
+    return tl::unexpected(whole.error());
   }
   if (auto migrated = migrate(*database); !migrated) {
     return tl::unexpected(migrated.error());
@@ -92,6 +118,24 @@ Expected<void> StoreChange::commit() {
     std::ignore = writeAuditAnchor(store_->database(), store_->anchorFile());
   }
   return done;
+}
+
+Expected<void> noteAct(Store& store,
+                       Permission permission,
+                       std::string action,
+                       std::string details) {
+  auto change = StoreChange::begin(store, permission);
+  if (!change) {
+    return tl::unexpected(change.error());
+  }
+  auto entry = appendAudit(store.database(),
+                           store.vault(),
+                           {.at_ms = store.environment().now_ms(),
+                            .who = change->who().id,
+                            .station = store.environment().station,
+                            .action = std::move(action),
+                            .details = std::move(details)});
+  return entry ? change->commit() : tl::unexpected(entry.error());
 }
 
 }  // namespace tarsus

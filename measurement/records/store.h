@@ -88,4 +88,11 @@ class StoreChange {
   Transaction transaction_;
 };
 
+/// An act that changes no record, as an export, in the audit trail: a change of its own.
+/// @errors NotPermitted, and those of StoreChange
+[[nodiscard]] Expected<void> noteAct(Store& store,
+                                     Permission permission,
+                                     std::string action,
+                                     std::string details = {});
+
 }  // namespace tarsus

@@ -4,6 +4,8 @@
 #include "measurement/records/revisions.h"
 #include "measurement/records/sign_in.h"
 
+#include <QString>
+
 #include <algorithm>
 
 namespace tarsus {
@@ -46,8 +48,9 @@ Expected<void> requireAnotherAdministrator(Store& store, std::string_view id) {
 }  // namespace
 
 Expected<User> addUser(Store& store, std::string_view name, Role role, std::string_view password) {
-  if (name.empty()) {
-    return fail(ErrorCode::RecordInvalid, "a user needs a name");
+  if (!isName(name) || isBlank(name.substr(0, 1)) || isBlank(name.substr(name.size() - 1))) {
+    return fail(ErrorCode::RecordInvalid,
+                "a user needs a name, on one line and without spaces around it");
   }
   auto change = StoreChange::begin(store, Permission::ManageUsers);
   if (!change) {
@@ -57,7 +60,11 @@ Expected<User> addUser(Store& store, std::string_view name, Role role, std::stri
   if (!users) {
     return tl::unexpected(users.error());
   }
-  if (std::ranges::find(*users, name, &User::name) != users->end()) {
+  const auto folded = [](std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<int>(text.size())).toCaseFolded();
+  };
+  if (std::ranges::any_of(*users,
+                          [&](const User& user) { return folded(user.name) == folded(name); })) {
     return fail(ErrorCode::RecordInvalid,
                 "there is a user \"" + std::string(name) + "\" already; names are not used twice");
   }

@@ -17,6 +17,9 @@ constexpr VisitField flag(std::string_view name) { return {.name = name, .type =
 constexpr VisitField number(std::string_view name, double least, double most) {
   return {.name = name, .type = FieldType::Number, .least = least, .most = most};
 }
+constexpr VisitField count(std::string_view name, double most) {
+  return {.name = name, .type = FieldType::Number, .most = most, .is_whole = true};
+}
 constexpr VisitField words(std::string_view name, std::string_view choice) {
   return {.name = name, .type = FieldType::Words, .words = choice};
 }
@@ -34,7 +37,7 @@ constexpr std::array kFields{
     words("pulse_tibialis_posterior", "present weak absent"),
     number("abi", 0.0, 3.0),
     number("toe_pressure_mmhg", 0.0, 350.0),
-    number("monofilament_felt_of_10", 0.0, 10.0),
+    count("monofilament_felt_of_10", 10.0),
     words("probe_to_bone", "positive negative"),
     flag("infection_swelling_or_induration"),
     number("infection_erythema_cm", 0.0, 60.0),
@@ -107,10 +110,12 @@ Expected<void> checkField(const VisitField& field, const json& value) {
     case FieldType::Flag:
       return value.is_boolean() ? Expected<void>() : invalid(field.name, "must be true or false");
     case FieldType::Number:
-      return isWithin(value, field.least, field.most)
+      return isWithin(value, field.least, field.most) &&
+                     (!field.is_whole || value.get<double>() == std::floor(value.get<double>()))
                  ? Expected<void>()
                  : invalid(field.name,
-                           "must be a number from " + shortNumber(field.least) + " to " +
+                           std::string("must be a ") + (field.is_whole ? "whole " : "") +
+                               "number from " + shortNumber(field.least) + " to " +
                                shortNumber(field.most));
     case FieldType::Words:
       return isChosen(field.words, value)

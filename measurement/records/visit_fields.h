@@ -19,6 +19,7 @@ struct VisitField {
   double most = 0.0;
   std::string_view words = {};    ///< of Words, parted by spaces; exactly one is chosen
   bool is_typed_measure = false;  ///< by ruler or probe
+  bool is_whole = false;          ///< of a Number: a count
 };
 
 /// All fields, in the order of the form (clinical.md section 5).

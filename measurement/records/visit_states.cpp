@@ -1,5 +1,7 @@
 #include "measurement/records/visit_states.h"
 
+#include "measurement/records/content.h"
+
 #include <string>
 
 namespace tarsus {
@@ -66,7 +68,7 @@ Expected<VisitState> stateAfter(VisitState from,
       return fail(ErrorCode::NotPermitted,
                   "as " + std::string(nameOf(role)) + " you may not " + wish + " a visit");
     }
-    if (allowed.needs_reason && reason.empty()) {
+    if (allowed.needs_reason && isBlank(reason)) {
       return fail(ErrorCode::RecordInvalid, "to " + wish + " a visit needs a reason");
     }
     return allowed.to;

@@ -6,6 +6,8 @@
 #include "measurement/records/visit_fields.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 
 namespace tarsus {
 namespace {
@@ -25,7 +27,21 @@ Expected<void> check(Store& store, const VisitContent& content) {
                   "file \"" + file.title + "\" must be put into the store first");
     }
   }
+  constexpr std::int64_t kDay_ms = 86'400'000;  // another zone's clock may be ahead
+  if (content.taken_at_ms > store.environment().now_ms() + kDay_ms) {
+    return fail(ErrorCode::RecordInvalid,
+                "the visit's day, " + dayOf(content.taken_at_ms) + ", lies in the future");
+  }
   return checkVisitFields(content.fields, content.usable_scan);
+}
+
+/// A signature stands for something that was found.
+Expected<void> requireContent(const Visit& visit) {
+  const bool something = !visit.content.fields.empty() || !visit.content.files.empty();
+  return something ? Expected<void>()
+                   : fail(ErrorCode::StepNotAllowed,
+                          "there is nothing in this visit yet: measure the wound, or mark it as "
+                          "without a usable scan and type what was found");
 }
 
 json contentOf(const VisitContent& content, const std::string& signed_by, std::int64_t at_ms) {
@@ -74,6 +90,11 @@ Expected<Visit> take(Store& store, std::string_view id, Step step) {
     // A stale edit is told as such also where the newer state forbids the step.
     if (!state && visit->revision == step.base_revision) {
       return tl::unexpected(state.error());
+    }
+    if (step.step == VisitStep::Sign) {
+      if (auto filled = requireContent(*visit); !filled) {
+        return tl::unexpected(filled.error());
+      }
     }
     const bool signs = step.step == VisitStep::Sign || step.step == VisitStep::Amend;
     const VisitContent& content = step.content ? *step.content : visit->content;
@@ -156,6 +177,23 @@ Expected<Visit> addVisit(Store& store, std::string_view wound_id, const VisitCon
   });
 }
 
+Expected<VisitFile> putPicture(Store& store, const std::filesystem::path& picture) {
+  constexpr std::string_view kJpeg("\xff\xd8\xff");
+  constexpr std::string_view kPng("\x89PNG\r\n\x1a\n");
+  std::ifstream file(picture, std::ios::binary);
+  std::array<char, 8> start{};
+  file.read(start.data(), start.size());
+  const std::string_view read(start.data(), static_cast<std::size_t>(file.gcount()));
+  if (file.is_open() && !read.starts_with(kJpeg) && !read.starts_with(kPng)) {
+    return fail(ErrorCode::RecordInvalid,
+                picture.string() + " is no photograph; give a JPEG or PNG file");
+  }
+  return store.files().put(store.vault(), picture).map([&](std::string name) {
+    return VisitFile{
+        .role = "picture", .name = std::move(name), .title = picture.filename().string()};
+  });
+}
+
 Expected<Visit> editVisit(Store& store,
                           std::string_view id,
                           std::int64_t base_revision,
@@ -195,10 +233,15 @@ Expected<Visit> moveVisit(Store& store,
                           std::int64_t base_revision,
                           std::string_view wound_id,
                           std::string_view reason) {
-  if (reason.empty()) {
+  if (isBlank(reason)) {
     return fail(ErrorCode::RecordInvalid, "to move a visit needs a reason");
   }
-  return requireUsable(store, RecordKind::Wound, wound_id)
+  return findVisit(store, id)
+      .and_then([&](const Visit& visit) {
+        return visit.wound_id == wound_id
+                   ? fail(ErrorCode::RecordInvalid, "the visit is filed under this wound already")
+                   : requireUsable(store, RecordKind::Wound, wound_id);
+      })
       .and_then([&] { return changingStep(store, id); })
       .and_then([&](VisitStep step) {
         return take(store,

@@ -48,6 +48,9 @@ struct Visit {
 [[nodiscard]] Expected<Visit> addVisit(Store& store,
                                        std::string_view wound_id,
                                        const VisitContent& content);
+/// Puts a photograph into the store, to be filed with a visit.
+/// @errors RecordInvalid (no JPEG or PNG), FileMissing, FileUnreadable, DiskFull
+[[nodiscard]] Expected<VisitFile> putPicture(Store& store, const std::filesystem::path& picture);
 /// A draft is edited; what is signed is amended, with a reason. Earlier versions stay.
 /// @errors those of addVisit, RecordStale, StepNotAllowed
 [[nodiscard]] Expected<Visit> editVisit(Store& store,

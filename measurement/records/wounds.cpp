@@ -1,10 +1,13 @@
 #include "measurement/records/wounds.h"
 
 #include "measurement/records/content.h"
+#include "measurement/records/feet.h"
+#include "measurement/records/patients.h"
 #include "measurement/records/revisions.h"
 #include "measurement/records/subjects.h"
 
 #include <algorithm>
+#include <set>
 
 namespace tarsus {
 namespace {
@@ -97,20 +100,85 @@ json contentOf(const WoundFields& fields, int number) {
           {"healed_on", fields.healed_on}};
 }
 
-/// Also a wound in the trash keeps its number.
-Expected<int> nextNumber(Store& store, std::string_view foot_id) {
+/// Numbers of a foot's wounds; also one in the trash keeps its number.
+Expected<std::set<int>> numbersOf(Store& store, std::string_view foot_id) {
   const auto tree = currentTree(store, foot_id);
   if (!tree) {
     return tl::unexpected(tree.error());
   }
-  int number = 1;
+  std::set<int> numbers;
   for (const Revision& revision : *tree) {
     if (revision.kind == RecordKind::Wound) {
-      const std::int64_t taken = ContentReader(revision).integer("number");
-      number = std::max(number, static_cast<int>(taken) + 1);
+      numbers.insert(static_cast<int>(ContentReader(revision).integer("number")));
     }
   }
-  return number;
+  return numbers;
+}
+
+Expected<int> nextNumber(Store& store, std::string_view foot_id) {
+  return numbersOf(store, foot_id).map([](const std::set<int>& taken) {
+    return taken.empty() ? 1 : *taken.rbegin() + 1;
+  });
+}
+
+/// The number that it had on this foot before, or has now, where that is free.
+Expected<int> numberAfterMove(Store& store, const Wound& wound, std::string_view foot_id) {
+  const auto taken = numbersOf(store, foot_id);
+  const auto versions = allRevisions(store, RecordKind::Wound, wound.id);
+  if (!taken || !versions) {
+    return tl::unexpected(!taken ? taken.error() : versions.error());
+  }
+  std::vector<int> wishes;
+  for (const Revision& version : *versions) {
+    if (version.parent == foot_id) {
+      wishes.push_back(static_cast<int>(ContentReader(version).integer("number")));
+    }
+  }
+  wishes.push_back(wound.number);
+  for (const int wish : wishes) {
+    if (!taken->contains(wish)) {
+      return wish;
+    }
+  }
+  return taken->empty() ? 1 : *taken->rbegin() + 1;
+}
+
+/// The wound can be where it is said to be, and began neither before the patient nor after today.
+Expected<void> checkOnFoot(Store& store, const WoundFields& fields, std::string_view foot_id) {
+  const auto foot = findFoot(store, foot_id);
+  if (!foot) {
+    return tl::unexpected(foot.error());
+  }
+  const bool toe = fields.place.starts_with("toe_");
+  if (foot->fields.forefoot_missing && (toe || fields.place.starts_with("mth_"))) {
+    return invalid("the forefoot of this foot is missing");
+  }
+  for (const int missing : foot->fields.missing_toes) {
+    if (fields.place == "toe_" + std::to_string(missing)) {
+      return invalid("toe " + std::to_string(missing) + " of this foot is missing");
+    }
+  }
+  const std::string today = dayOf(store.environment().now_ms());
+  if (fields.onset > today || fields.healed_on > today) {
+    return invalid("a wound's dates cannot lie in the future");
+  }
+  const auto patient = findPatient(store, foot->patient_id);
+  if (!patient) {
+    return tl::unexpected(patient.error());
+  }
+  if (!fields.onset.empty() && fields.onset < patient->fields.birth_date) {
+    return invalid("the wound began before the patient was born");
+  }
+  for (const std::string& parent : fields.parents) {
+    const auto wound = findWound(store, parent);
+    if (!wound) {
+      return tl::unexpected(wound.error());
+    }
+    if (wound->foot_id != foot_id) {
+      return invalid("wound " + parent + " is on another foot");
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -144,6 +212,7 @@ Expected<Wound> addWound(Store& store, std::string_view foot_id, const WoundFiel
     return checkWords(fields)
         .and_then([&] { return checkParents(store, fields, {}); })
         .and_then([&] { return requireUsable(store, RecordKind::Foot, foot_id); })
+        .and_then([&] { return checkOnFoot(store, fields, foot_id); })
         .and_then([&] { return nextNumber(store, foot_id); })
         .and_then([&](int number) {
           return addRecord(store,
@@ -164,6 +233,9 @@ Expected<Wound> editWound(Store& store,
         .and_then([&] { return checkParents(store, fields, id); })
         .and_then([&] { return findWound(store, id); })
         .and_then([&](const Wound& wound) {
+          return checkOnFoot(store, fields, wound.foot_id).map([&] { return wound; });
+        })
+        .and_then([&](const Wound& wound) {
           return addRevision(store,
                              RecordKind::Wound,
                              id,
@@ -180,14 +252,20 @@ Expected<Wound> moveWound(Store& store,
                           std::int64_t base_revision,
                           std::string_view foot_id,
                           std::string_view reason) {
-  if (reason.empty()) {
+  if (isBlank(reason)) {
     return fail(ErrorCode::RecordInvalid, "to move a wound needs a reason");
   }
   return inChange<Wound>(store, Permission::EditRecords, [&](const SignedIn&) -> Expected<Wound> {
     const auto wound = findWound(store, id);
-    const auto number = nextNumber(store, foot_id);
-    if (!wound || !number) {
-      return tl::unexpected(!wound ? wound.error() : number.error());
+    if (!wound) {
+      return wound;
+    }
+    if (wound->foot_id == foot_id) {
+      return fail(ErrorCode::RecordInvalid, "the wound is filed under this foot already");
+    }
+    const auto number = numberAfterMove(store, *wound, foot_id);
+    if (!number) {
+      return tl::unexpected(number.error());
     }
     return requireUsable(store, RecordKind::Foot, foot_id)
         .and_then([&] {

@@ -5,7 +5,8 @@
 
 namespace tarsus {
 
-/// A fresh folder that only this user can read, removed with all it holds at the end.
+/// A fresh folder that only this user can read, removed with all it holds at the end. One that a
+/// program which was killed left behind is removed by the next that makes one.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(std::string_view prefix = "tarsus");

@@ -239,7 +239,7 @@ TEST_F(CliRecords, AVisitWithoutAScanHoldsTypedValuesAndAPhotograph) {
   const std::string wound =
       nurse("wound add " + foot + " --place mth_1 --aspect plantar").value("id", "");
   EXPECT_TRUE(contains(refused("nina", "nurse", "visit add " + wound + " --no-scan"), "ruler"));
-  write("photo.jpg", "a picture");
+  write("photo.jpg", "\xff\xd8\xff\xe0 a picture");
   const json visit = nurse("visit add " + wound + " --no-scan --set ruler_length_mm=12 --picture " +
                            file("photo.jpg"));
   EXPECT_EQ(visit.at("usable_scan"), false);

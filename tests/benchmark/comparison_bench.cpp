@@ -232,37 +232,33 @@ void printAttacks(const std::filesystem::path& folder, const Scans& scans, int r
   std::printf("%-28s %8d %9d %17d\n", "all", all.attempts, all.accepted, all.wrong);
 }
 
-/// What two clinicians do: the outline drawn again, wider or narrower by N(0, 0.25 mm), and the
-/// skin curve by N(0, 0.5 mm), the 95 % half-widths of +-0.5 and +-1 mm that the intervals state.
 struct Drawn {
-  const Scan* scan;
-  Scan again;
+  Scan scan;
   WoundMeasurement numbers;
 };
 
-std::vector<Drawn> drawnAgain(const Scans& scans, test::Dice& dice) {
-  std::vector<Drawn> all;
-  for (const auto& scan : scans) {
-    const Vector3d middle = woundOf(*scan);
-    const double outline_mm = 0.25 * dice.normal();
-    std::vector<Vector3d> points;
-    for (const Vector3d& p : positionsOf(scan->model.mesh, scan->outline.clicks)) {
-      points.push_back(p + outline_mm * (p - middle).normalized());
-    }
-    MeasureOptions options;
-    options.skin_curve_offset_mm =
-        std::max(0.0, options.skin_curve_offset_mm + 0.5 * dice.normal());
-    const auto outline = traceOutline(scan->model, MeshIndex(scan->model.mesh), points);
-    auto wound = outline ? measureWound(scan->model, *outline, {}, scan->landmarks, options)
-                         : tl::unexpected(outline.error());
-    if (!wound) {
-      std::printf("  not measured: %s: %s\n", scan->name.c_str(), describe(wound.error()).c_str());
-      continue;
-    }
-    all.push_back({scan.get(), *scan, std::move(wound->numbers)});
-    all.back().again.outline = *outline;
+/// What another clinician does: the outline drawn again, wider or narrower by N(0, 0.25 mm), and
+/// the skin curve by N(0, 0.5 mm), the 95 % half-widths of +-0.5 and +-1 mm that the intervals
+/// state.
+std::optional<Drawn> drawnAgain(const Scan& scan, test::Dice& dice) {
+  const Vector3d middle = woundOf(scan);
+  const double outline_mm = 0.25 * dice.normal();
+  std::vector<Vector3d> points;
+  for (const Vector3d& p : positionsOf(scan.model.mesh, scan.outline.clicks)) {
+    points.push_back(p + outline_mm * (p - middle).normalized());
   }
-  return all;
+  MeasureOptions options;
+  options.skin_curve_offset_mm = std::max(0.0, options.skin_curve_offset_mm + 0.5 * dice.normal());
+  const auto outline = traceOutline(scan.model, MeshIndex(scan.model.mesh), points);
+  auto wound = outline ? measureWound(scan.model, *outline, {}, scan.landmarks, options)
+                       : tl::unexpected(outline.error());
+  if (!wound) {
+    std::printf("  not measured: %s: %s\n", scan.name.c_str(), describe(wound.error()).c_str());
+    return std::nullopt;
+  }
+  Drawn drawn{scan, std::move(wound->numbers)};
+  drawn.scan.outline = *outline;
+  return drawn;
 }
 
 /// The share of the wound that a map shows as changed.
@@ -278,42 +274,45 @@ double shareAbove(const ChangeMap& map) {
   return static_cast<double>(above) / std::max(1, seen);
 }
 
+/// Pairs of scans of one foot, near ones first.
+std::vector<std::pair<const Scan*, const Scan*>> manyPairsOf(const Scans& scans, int most) {
+  std::vector<std::pair<const Scan*, const Scan*>> pairs;
+  for (std::size_t apart = 1; apart < scans.size(); ++apart) {
+    for (std::size_t i = 0; i + apart < scans.size(); ++i) {
+      if (scans[i]->foot == scans[i + apart]->foot && static_cast<int>(pairs.size()) < most) {
+        pairs.emplace_back(scans[i].get(), scans[i + apart].get());
+      }
+    }
+  }
+  return pairs;
+}
+
 void printUnchanged(const Scans& scans, int repeats) {
   std::printf("\ntwo scans of a wound that did not change, each outlined anew\n");
   test::Dice dice(73);
-  const std::vector<Drawn> drawn = drawnAgain(scans, dice);
   std::map<std::string, std::pair<int, int>> changed;  // false, all
   std::vector<double> map_shares;
-  int pairs = 0;
-  for (std::size_t apart = 1; apart < drawn.size(); ++apart) {
-    for (std::size_t i = 0; i + apart < drawn.size() && pairs < repeats; ++i) {
-      const Drawn& a = drawn[i];
-      const Drawn& b = drawn[i + apart];
-      if (a.scan->foot != b.scan->foot) {
-        continue;
+  for (const auto& [first, second] : manyPairsOf(scans, repeats)) {
+    const auto a = drawnAgain(*first, dice);
+    const auto b = drawnAgain(*second, dice);
+    if (!a || !b) {
+      continue;
+    }
+    const auto comparison = compareVisits(
+        {a->scan.surface(true), a->numbers}, {b->scan.surface(true), b->numbers}, 7.0);
+    if (!comparison) {
+      std::printf(
+          "  not compared: %s: %s\n", second->name.c_str(), describe(comparison.error()).c_str());
+      continue;
+    }
+    for (const char* name : {"opening_area_mm2", "volume_mm3", "max_depth_mm", "perimeter_mm"}) {
+      if (const auto it = comparison->changes.find(name); it != comparison->changes.end()) {
+        changed[name].first += it->second.detectable.value_or(false) ? 1 : 0;
+        ++changed[name].second;
       }
-      const auto comparison = compareVisits(
-          {a.again.surface(true), a.numbers}, {b.again.surface(true), b.numbers}, 7.0);
-      if (!comparison) {
-        std::printf(
-            "  not compared: %s: %s\n", b.scan->name.c_str(), describe(comparison.error()).c_str());
-        continue;
-      }
-      ++pairs;
-      bool any = false;
-      for (const char* name : {"opening_area_mm2", "volume_mm3", "max_depth_mm", "perimeter_mm"}) {
-        if (const auto it = comparison->changes.find(name); it != comparison->changes.end()) {
-          const bool wrong = it->second.detectable.value_or(false);
-          any = any || wrong;
-          changed[name].first += wrong ? 1 : 0;
-          ++changed[name].second;
-        }
-      }
-      changed["any of these"].first += any ? 1 : 0;
-      ++changed["any of these"].second;
-      if (comparison->map) {
-        map_shares.push_back(shareAbove(*comparison->map));
-      }
+    }
+    if (comparison->map) {
+      map_shares.push_back(shareAbove(*comparison->map));
     }
   }
   for (const auto& [name, counts] : changed) {

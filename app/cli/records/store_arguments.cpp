@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <thread>
 
 namespace tarsus {
 namespace {
@@ -33,6 +34,20 @@ std::string stationName() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
+/// Several commands of one user at once count as attempts until each has proved the password.
+Expected<SignedIn> signInPatiently(Store& store,
+                                   const std::string& user,
+                                   const std::string& password) {
+  constexpr int kTries = 10;
+  auto signed_in = signIn(store, user, password);
+  for (int i = 0; i < kTries && !signed_in && signed_in.error().code == ErrorCode::SignInDelayed;
+       ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    signed_in = signIn(store, user, password);
+  }
+  return signed_in;
+}
+
 Expected<nlohmann::json> signInAndWork(const StoreArguments& arguments,
                                        const StoreWork& work,
                                        const Job& job) {
@@ -44,7 +59,7 @@ Expected<nlohmann::json> signInAndWork(const StoreArguments& arguments,
   if (!password) {
     return tl::unexpected(password.error());
   }
-  if (auto user = signIn(*store, arguments.user, *password); !user) {
+  if (auto user = signInPatiently(*store, arguments.user, *password); !user) {
     return tl::unexpected(user.error());
   }
   return work(*store, job);
@@ -85,6 +100,9 @@ Expected<std::string> readPassword(const fs::path& file) {
     return fail(ErrorCode::FileMissing, file.string());
   }
   std::getline(stream, password);
+  if (password.ends_with('\r')) {  // written by an editor of another system
+    password.pop_back();
+  }
   return password;
 }
 

@@ -10,11 +10,13 @@
 #include "measurement/records/export/export.h"
 #include "measurement/records/place_file.h"
 #include "measurement/records/record_json.h"
+#include "measurement/records/removal.h"
 #include "measurement/records/sign_in.h"
 #include "measurement/records/users.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -25,8 +27,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-json shownCode(const std::string& code, bool print) {
-  if (print) {
+/// Also where the command is quiet: it is shown this once.
+json shownCode(const std::string& code, const Command& command) {
+  if (command.json_file != "-") {
     std::printf(
         "Recovery code: %s\nPrint it and lock it away. It is shown this once; without it and "
         "without a password nobody can read the records.\n",
@@ -57,7 +60,7 @@ void addCreateStore(CLI::App& parent, Command& command) {
       if (!code) {
         return tl::unexpected(code.error());
       }
-      return shownCode(*code, prints(command));
+      return shownCode(*code, command);
     };
   });
 }
@@ -126,7 +129,30 @@ void addRenewCode(CLI::App& parent, Command& command) {
                              "Another code; the one before opens nothing any more");
   runInStore(*sub, command, [&command](Store& store, const Job&) -> Expected<json> {
     const auto code = renewRecoveryCode(store);
-    return code.map([&](const std::string& text) { return shownCode(text, prints(command)); });
+    return code.map([&](const std::string& text) { return shownCode(text, command); });
+  });
+}
+
+void addTrashList(CLI::App& parent, Command& command) {
+  CLI::App* sub = addCommand(parent, command, "trash", "What lies in the trash, to be taken out");
+  runInStore(*sub, command, [&command](Store& store, const Job&) -> Expected<json> {
+    const auto thrown = trash(store);
+    if (!thrown) {
+      return tl::unexpected(thrown.error());
+    }
+    json list = json::array();
+    for (const Revision& revision : *thrown) {
+      if (prints(command)) {
+        std::printf("%s %s, since %s\n",
+                    std::string(nameOf(revision.kind)).c_str(),
+                    revision.record.c_str(),
+                    isoTime(revision.at_ms).c_str());
+      }
+      list.push_back({{"kind", nameOf(revision.kind)},
+                      {"id", revision.record},
+                      {"at", isoTime(revision.at_ms)}});
+    }
+    return json{{"trash", list}};
   });
 }
 
@@ -224,17 +250,16 @@ void addUserCommands(CLI::App& app, Command& command) {
   });
   CLI::App* edit = addCommand(*parent, command, "edit", "Another role, or no more access");
   edit->add_option("USER", arguments->name, "As `user list` names it")->required();
-  edit->add_option("--role", arguments->role)->required()->check(CLI::IsMember(roleNames()));
+  edit->add_option("--role", arguments->role, "Else as it is")->check(CLI::IsMember(roleNames()));
   edit->add_flag("--no-access", arguments->no_access);
   runInStore(*edit, command, [&command, arguments](Store& store, const Job&) -> Expected<json> {
     const auto user = findUser(store, arguments->name);
     if (!user) {
       return tl::unexpected(user.error());
     }
-    return shown(
-        changeUser(
-            store, user->id, user->revision, *roleNamed(arguments->role), !arguments->no_access),
-        prints(command));
+    const Role role = arguments->role.empty() ? user->role : *roleNamed(arguments->role);
+    return shown(changeUser(store, user->id, user->revision, role, !arguments->no_access),
+                 prints(command));
   });
   CLI::App* password = addCommand(
       *parent, command, "password", "A new password for one who forgot it, or has no access");
@@ -277,6 +302,19 @@ void addAudit(CLI::App& app, Command& command) {
                 {"files", check->files},
                 {"findings", check->findings}};
   });
+  auto reason = std::make_shared<std::string>();
+  CLI::App* accept = addCommand(
+      *parent, command, "accept", "After a finding was looked into: go on from the trail as it is");
+  accept->add_option("--reason", *reason, "What was found out")->required();
+  runInStore(*accept, command, [&command, reason](Store& store, const Job&) -> Expected<json> {
+    if (auto accepted = acceptAuditTrail(store, *reason); !accepted) {
+      return tl::unexpected(accepted.error());
+    }
+    if (prints(command)) {
+      std::printf("Accepted; the finding and the reason stand in the trail.\n");
+    }
+    return json{{"accepted", true}};
+  });
   struct Range {
     std::int64_t first = 1;
     std::int64_t last = std::numeric_limits<std::int64_t>::max();
@@ -293,13 +331,18 @@ void addAudit(CLI::App& app, Command& command) {
     if (!entries) {
       return tl::unexpected(entries.error());
     }
+    const auto users = listUsers(store);
+    const auto name_of = [&](const std::string& id) {
+      const auto at = users ? std::ranges::find(*users, id, &User::id) : decltype(users->begin()){};
+      return users && at != users->end() ? at->name : id;
+    };
     json all = json::array();
     for (const AuditEntry& entry : *entries) {
       if (prints(command)) {
         std::printf("%6lld %s %-14s %-12s %-10s %s\n",
                     static_cast<long long>(entry.entry),
                     isoTime(entry.at_ms).c_str(),
-                    entry.who.c_str(),
+                    name_of(entry.who).c_str(),
                     entry.station.c_str(),
                     entry.action.c_str(),
                     entry.subject.c_str());
@@ -404,6 +447,7 @@ void addStoreCommands(CLI::App& app, Command& command) {
   addResetPassword(*parent, command);
   addRenewCode(*parent, command);
   addUse(*parent, command);
+  addTrashList(*parent, command);
   addUserCommands(app, command);
   addAudit(app, command);
   addBackup(app, command);

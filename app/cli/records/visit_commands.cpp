@@ -1,4 +1,5 @@
 // visit: what was found, measured and signed on one day; recompute.
+#include "app/cli/checks.h"
 #include "app/cli/records/record_commands.h"
 #include "app/cli/records/store_arguments.h"
 #include "app/cli/records/visit_fields_option.h"
@@ -6,6 +7,7 @@
 #include "app/version.h"
 #include "measurement/records/record_json.h"
 #include "measurement/records/removal.h"
+#include "measurement/records/users.h"
 #include "measurement/records/visit_measurement.h"
 #include "measurement/report/visit_report.h"
 #include "reconstruction/base/temporary_folder.h"
@@ -35,6 +37,42 @@ void printLine(const Visit& visit) {
               visit.content.usable_scan ? "" : ", without a usable scan");
 }
 
+void printVersion(Store& store, const Visit& version) {
+  const auto user = findUser(store, version.author);
+  std::printf("version %lld  %s  %s by %s: %s%s%s\n",
+              static_cast<long long>(version.revision),
+              isoTime(version.at_ms).c_str(),
+              version.last_action.c_str(),
+              (user ? user->name : version.author).c_str(),
+              std::string(nameOf(version.state)).c_str(),
+              version.reason.empty() ? "" : "; reason: ",
+              version.reason.c_str());
+}
+
+void printContent(const Visit& visit, const std::vector<Measurement>& measurements) {
+  std::printf("visit of %s%s\n",
+              isoTime(visit.content.taken_at_ms).c_str(),
+              visit.content.usable_scan ? "" : ", without a usable scan");
+  const json& fields = visit.content.fields;
+  for (const auto& [name, value] : fields.items()) {
+    std::printf("  %-34s %s\n",
+                name.c_str(),
+                (value.is_string() ? value.get<std::string>() : value.dump()).c_str());
+  }
+  if (measurements.empty()) {
+    std::printf("not measured\n");
+    return;
+  }
+  const json& numbers = measurements.back().numbers;
+  for (const char* key :
+       {"opening_area_mm2", "volume_mm3", "max_depth_mm", "length_mm", "width_mm"}) {
+    const auto value = numbers.find(key);
+    if (value != numbers.end() && value->is_number()) {
+      std::printf("  %-34s %.1f\n", key, value->get<double>());
+    }
+  }
+}
+
 Expected<json> shown(const Expected<Visit>& visit, bool print) {
   if (!visit) {
     return tl::unexpected(visit.error());
@@ -60,12 +98,11 @@ Expected<void> addPictures(Store& store,
                            const std::vector<std::filesystem::path>& pictures,
                            VisitContent& content) {
   for (const auto& picture : pictures) {
-    auto name = store.files().put(store.vault(), picture);
-    if (!name) {
-      return tl::unexpected(name.error());
+    auto file = putPicture(store, picture);
+    if (!file) {
+      return tl::unexpected(file.error());
     }
-    content.files.push_back(
-        {.role = "picture", .name = std::move(*name), .title = picture.filename().string()});
+    content.files.push_back(std::move(*file));
   }
   return {};
 }
@@ -94,7 +131,8 @@ Expected<VisitContent> contentOf(Store& store,
 }
 
 void addContentOptions(CLI::App& sub, VisitArguments& arguments) {
-  sub.add_option("--at", arguments.at, "When, universal time: 2026-10-05T09:30; else now");
+  sub.add_option("--at", arguments.at, "When, universal time: 2026-10-05T09:30; else now")
+      ->check(notEmpty());
   addFieldsOptions(sub, arguments.fields);
   sub.add_option("--picture", arguments.pictures, "A photograph to keep with the visit")
       ->type_name("FILE");
@@ -130,18 +168,24 @@ void addEditVisit(CLI::App& parent, Command& command, bool amends) {
   if (amends) {
     sub->add_option("--reason", arguments->reason)->required();
   }
-  runInStore(*sub, command, [&command, arguments](Store& store, const Job&) -> Expected<json> {
-    const auto visit = findVisit(store, arguments->id);
-    if (!visit) {
-      return tl::unexpected(visit.error());
-    }
-    const auto content = contentOf(store, *arguments, visit->content);
-    if (!content) {
-      return tl::unexpected(content.error());
-    }
-    return shown(editVisit(store, arguments->id, visit->revision, *content, arguments->reason),
-                 prints(command));
-  });
+  runInStore(
+      *sub, command, [&command, arguments, amends](Store& store, const Job&) -> Expected<json> {
+        const auto visit = findVisit(store, arguments->id);
+        if (!visit) {
+          return tl::unexpected(visit.error());
+        }
+        if ((visit->state == VisitState::Draft) == amends) {
+          return fail(ErrorCode::StepNotAllowed,
+                      amends ? "the visit is a draft; change it with `visit edit`"
+                             : "the visit was signed; change it with `visit amend` and a reason");
+        }
+        const auto content = contentOf(store, *arguments, visit->content);
+        if (!content) {
+          return tl::unexpected(content.error());
+        }
+        return shown(editVisit(store, arguments->id, visit->revision, *content, arguments->reason),
+                     prints(command));
+      });
 }
 
 void addStepVisit(
@@ -149,7 +193,8 @@ void addStepVisit(
   auto arguments = std::make_shared<VisitArguments>();
   CLI::App* sub = addCommand(parent, command, name, what);
   sub->add_option("VISIT", arguments->id)->required();
-  auto* reason = sub->add_option("--reason", arguments->reason, "What is asked for");
+  auto* reason = sub->add_option(
+      "--reason", arguments->reason, step == VisitStep::Return ? "What is asked for" : "A remark");
   reason->required(step == VisitStep::Return);
   runInStore(
       *sub, command, [&command, arguments, step](Store& store, const Job&) -> Expected<json> {
@@ -264,9 +309,12 @@ void addShowVisit(CLI::App& parent, Command& command) {
     json version_list = json::array();
     for (const Visit& version : *versions) {
       if (prints(command)) {
-        printLine(version);
+        printVersion(store, version);
       }
       version_list.push_back(toJson(version));
+    }
+    if (prints(command)) {
+      printContent(versions->back(), *measurements);
     }
     json measurement_list = json::array();
     for (const Measurement& measurement : *measurements) {

@@ -37,9 +37,14 @@ struct WoundOptions {
   std::string origin;
 };
 
-void addWoundFields(CLI::App& sub, WoundOptions& options) {
-  sub.add_option("--place", options.fields.place)->check(CLI::IsMember(listed(kWoundPlaces)));
-  sub.add_option("--aspect", options.fields.aspect)->check(CLI::IsMember(listed(kWoundAspects)));
+/// @param is_new  place and aspect must be given
+void addWoundFields(CLI::App& sub, WoundOptions& options, bool is_new) {
+  sub.add_option("--place", options.fields.place)
+      ->check(CLI::IsMember(listed(kWoundPlaces)))
+      ->required(is_new);
+  sub.add_option("--aspect", options.fields.aspect)
+      ->check(CLI::IsMember(listed(kWoundAspects)))
+      ->required(is_new);
   sub.add_option("--aetiology", options.fields.aetiology)
       ->check(CLI::IsMember(listed(kAetiologies)));
   sub.add_option("--onset", options.fields.onset, "Date, where it is known");
@@ -88,7 +93,7 @@ void addAddWound(CLI::App& parent, Command& command) {
   auto options = std::make_shared<WoundOptions>();
   CLI::App* sub = addCommand(parent, command, "add", "Add a wound to a foot");
   sub->add_option("FOOT", *foot, "As `patient show` names it")->required();
-  addWoundFields(*sub, *options);
+  addWoundFields(*sub, *options, true);
   runInStore(*sub, command, [&command, foot, options, sub](Store& store, const Job&) {
     return shown(addWound(store, *foot, over({.aetiology = "unknown"}, *options, *sub)),
                  prints(command));
@@ -126,7 +131,7 @@ void addEditWound(CLI::App& parent, Command& command) {
   auto options = std::make_shared<WoundOptions>();
   CLI::App* sub = addCommand(parent, command, "edit", "Change what is given; the rest stays");
   sub->add_option("WOUND", *id)->required();
-  addWoundFields(*sub, *options);
+  addWoundFields(*sub, *options, false);
   runInStore(
       *sub, command, [&command, id, options, sub](Store& store, const Job&) -> Expected<json> {
         const auto before = findWound(store, *id);

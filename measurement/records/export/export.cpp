@@ -97,6 +97,13 @@ Expected<ExportSummary> write(Store& store,
     }
     bundle = pseudonymised(std::move(bundle), **key);
   }
+  if (auto noted = noteAct(store,
+                           Permission::Export,
+                           options.pseudonymised ? "export, pseudonymised" : "export",
+                           std::to_string(bundle.patients.size()) + " patients");
+      !noted) {
+    return tl::unexpected(noted.error());
+  }
   const Growing growing(fs::absolute(out));
   auto written = writeTables(growing.path(), bundle);
   if (written) {

@@ -1,8 +1,11 @@
 #include "measurement/records/export/models.h"
 
+#include "measurement/records/export/pseudonyms.h"
 #include "reconstruction/base/atomic_file.h"
 #include "reconstruction/scene/ply.h"
 #include "reconstruction/scene/stl.h"
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cstdio>
@@ -94,6 +97,13 @@ Expected<void> writeVisitFiles(Store& store,
     }
     if (file.role == "model") {
       if (auto written = writeModels(target, options.pseudonymised); !written) {
+        return written;
+      }
+    } else if (options.pseudonymised) {  // curves and tissue: pictures are not among them
+      const auto text = readTextFile(target);
+      const auto document = nlohmann::json::parse(text.value_or(""), nullptr, false);
+      const auto kept = withoutFreeFields(document).dump() + "\n";
+      if (auto written = writeTextAtomically(target, kept); !written) {
         return written;
       }
     }

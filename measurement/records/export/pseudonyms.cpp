@@ -58,7 +58,7 @@ class Disguise {
     measurement.author.clear();
     measurement.scan_sha256.clear();
     measurement.numbers.erase("model_sha256");  // the model is written anew
-    measurement.outline.erase("model_sha256");
+    measurement.outline = withoutFreeFields(measurement.outline);
   }
 
  private:
@@ -110,6 +110,24 @@ ExportBundle pseudonymised(ExportBundle bundle, const SecretKey& key) {
   std::ranges::sort(bundle.patients, {}, [](const PatientHistory& h) { return h.patient.id; });
   bundle.pseudonymised = true;
   return bundle;
+}
+
+json withoutFreeFields(const json& document) {
+  json known = json::object();
+  for (const char* key : {"frame",
+                          "unit",
+                          "closed",
+                          "points",
+                          "source",
+                          "method",
+                          "edited",
+                          "confirmed",
+                          "vertices"}) {
+    if (document.is_object() && document.contains(key)) {
+      known[key] = document.at(key);
+    }
+  }
+  return known;
 }
 
 }  // namespace tarsus

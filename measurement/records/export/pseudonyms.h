@@ -10,4 +10,8 @@ namespace tarsus {
 /// and keep their distances; pictures and what the scan says of its camera are left out.
 [[nodiscard]] ExportBundle pseudonymised(ExportBundle bundle, const SecretKey& key);
 
+/// A curve's or a tissue map's document with the fields that Tarsus gives meaning to: further ones
+/// are free (design.md section 4), and may say who it is.
+[[nodiscard]] nlohmann::json withoutFreeFields(const nlohmann::json& document);
+
 }  // namespace tarsus

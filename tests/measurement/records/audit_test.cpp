@@ -3,7 +3,9 @@
 #include "measurement/records/check.h"
 #include "tests/measurement/records/record_test.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace tarsus {
 namespace {
@@ -95,15 +97,40 @@ TEST_P(Audit, FindsATailCutOffByTheSecondPlace) {
   EXPECT_NE(verdict.finding, "");
 }
 
-TEST_P(Audit, SaysWhenTheSecondPlaceIsMissing) {
-  std::filesystem::remove(place_.folder / "audit.anchor");
-  Store store = openStore();
-  must(signIn(store, "rita", kPassword));  // writes it again
-  std::filesystem::remove(place_.folder / "audit.anchor");
+TEST_P(Audit, SaysWhenTheSecondPlaceIsMissingOrMakesNoSense) {
+  for (const char* text : {"", "hello"}) {
+    std::filesystem::remove(place_.folder / "audit.anchor");
+    if (*text != '\0') {
+      std::ofstream(place_.folder / "audit.anchor") << text;
+    }
+    Store store = openAs("nils");  // signing in and writing on do not cover it up
+    must(addPatient(store, named("Fluss", "Ida")));
+    const auto verdict = must(verifyAudit(store.database(), store.vault(), store.anchorFile()));
+    EXPECT_FALSE(verdict.broken_at);
+    EXPECT_EQ(verdict.not_anchored, verdict.entries);
+    EXPECT_NE(verdict.finding.find("second place"), std::string::npos);
+  }
+}
+
+/// Tables put back to an older state, and written on until they are longer than before.
+TEST_P(Audit, FindsAnOlderStateThatWasWrittenOn) {
+  const std::int64_t entries = verify().entries;
+  tamper("DELETE FROM audit WHERE entry >= " + std::to_string(entries - 1));
+  Store store = openAs("nils");
+  for (int i = 0; i < 5; ++i) {
+    must(addPatient(store, named("Fluss", "Ida")));
+  }
   const auto verdict = must(verifyAudit(store.database(), store.vault(), store.anchorFile()));
-  EXPECT_FALSE(verdict.broken_at);
-  EXPECT_EQ(verdict.not_anchored, verdict.entries);
-  EXPECT_NE(verdict.finding.find("second place"), std::string::npos);
+  EXPECT_EQ(verdict.broken_at, entries);
+  expectFails(acceptAuditTrail(store, "restored by hand"), ErrorCode::NotPermitted);
+  must(signIn(store, "anna", kPassword));
+  expectFails(acceptAuditTrail(store, "  "), ErrorCode::RecordInvalid);
+  must(acceptAuditTrail(store, "restored by hand"));
+  EXPECT_EQ(verify().finding, "");
+  const auto all = must(auditEntries(store.database(), store.vault(), 1, 1000));
+  const auto told = std::ranges::find(all, "accept the trail", &AuditEntry::action);
+  ASSERT_NE(told, all.end());
+  EXPECT_NE(told->details.find("restored by hand (found: entry"), std::string::npos);
 }
 
 }  // namespace
