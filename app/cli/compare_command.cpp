@@ -4,6 +4,8 @@
 #include "app/cli/wound_arguments.h"
 #include "app/version.h"
 #include "measurement/comparison/comparison.h"
+#include "measurement/outline/outline.h"
+#include "reconstruction/scene/mesh_index.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +13,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace tarsus {
 namespace {
@@ -21,6 +24,8 @@ struct Arguments {
   std::optional<double> days;
   std::filesystem::path map;
   std::filesystem::path pairs;
+  std::vector<std::filesystem::path> callus_a;
+  std::vector<std::filesystem::path> callus_b;
 };
 
 Expected<Eigen::Vector3d> pointOf(const nlohmann::json& values) {
@@ -59,11 +64,30 @@ Expected<std::vector<PointPair>> readPairs(const std::filesystem::path& path) {
   return pairs;
 }
 
-MeasuredVisit visitOf(const MeasuredModel& model) {
+/// Curves around callus and whatever else does not stay as it is.
+Expected<std::vector<WoundOutline>> readLeftOut(const std::vector<std::filesystem::path>& files,
+                                                const TexturedMesh& foot) {
+  std::vector<WoundOutline> curves;
+  if (files.empty()) {
+    return curves;
+  }
+  const MeshIndex index(foot.mesh);
+  for (const auto& path : files) {
+    const auto file = readOutlineFile(path);
+    auto curve = file ? outlineOn(foot, index, *file) : tl::unexpected(file.error());
+    if (!curve) {
+      return fail(curve.error().code, path.string() + ": " + curve.error().detail);
+    }
+    curves.push_back(std::move(*curve));
+  }
+  return curves;
+}
+
+MeasuredVisit visitOf(const MeasuredModel& model, std::span<const WoundOutline> left_out) {
   return {.surface = {.foot = model.foot,
                       .outline = model.outline,
                       .landmarks = model.landmarks,
-                      .left_out = {}},
+                      .left_out = left_out},
           .numbers = model.wound.numbers};
 }
 
@@ -98,7 +122,13 @@ Expected<nlohmann::json> compare(const Arguments& arguments, bool printing) {
   if (!b) {
     return fail(b.error().code, "later visit: " + b.error().detail);
   }
-  const auto comparison = compareVisits(visitOf(*a), visitOf(*b), arguments.days, options);
+  const auto callus_a = readLeftOut(arguments.callus_a, a->foot);
+  const auto callus_b = readLeftOut(arguments.callus_b, b->foot);
+  if (!callus_a || !callus_b) {
+    return tl::unexpected(!callus_a ? callus_a.error() : callus_b.error());
+  }
+  const auto comparison =
+      compareVisits(visitOf(*a, *callus_a), visitOf(*b, *callus_b), arguments.days, options);
   if (!comparison) {
     return tl::unexpected(comparison.error());
   }
@@ -154,6 +184,12 @@ void addCompare(CLI::App& app, Command& command) {
       app, command, "compare", "Compare two visits of one wound: change, rates, change map");
   addVisit(*sub, "a", arguments->a);
   addVisit(*sub, "b", arguments->b);
+  sub->add_option("--callus-a",
+                  arguments->callus_a,
+                  "Curves around callus of the earlier visit: left out when the skin is laid over")
+      ->type_name("FILE");
+  sub->add_option("--callus-b", arguments->callus_b, "The same of the later visit")
+      ->type_name("FILE");
   sub->add_option("--days", arguments->days, "Days between the visits, for rates by week")
       ->check(inRange(1e-6, 1e9));
   sub->add_option("--map", arguments->map, "Write the signed change map here")

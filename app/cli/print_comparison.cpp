@@ -124,6 +124,9 @@ void printComparison(const VisitComparison& comparison,
                      const WoundMeasurement& earlier,
                      const WoundMeasurement& later) {
   printRegistration(comparison);
+  if (!comparison.registration.accepted) {
+    std::printf("The changes below hold only if both outlines are of the same wound.\n");
+  }
   std::printf("%-24s %9s %9s %9s %-4s %8s   %9s  %s\n",
               "",
               "earlier",

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -59,6 +60,30 @@ TEST_F(CliCompare, WritesTheComparisonAndTheMap) {
   EXPECT_EQ(json.at("days"), 14.0);
   EXPECT_TRUE(readPly(file("map.ply")));
   EXPECT_NE(run.output.find("not a prediction"), std::string::npos);
+}
+
+TEST_F(CliCompare, CallusIsLeftOut) {
+  nlohmann::json points = nlohmann::json::array();
+  const auto skin = test::unevenSkin(3);
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / 12;
+    const Eigen::Vector3d p = skin(35.0 + 12.0 * std::cos(angle), 12.0 * std::sin(angle)).position;
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  write("callus.json",
+        nlohmann::json{{"frame", "scan"}, {"unit", "mm"}, {"closed", true}, {"points", points}}
+            .dump());
+  ASSERT_EQ(compare("--json " + file("out.json")).exit_code, 0);
+  const auto with = result();
+  const CliRun run = compare("--callus-a " + file("callus.json") + " --json " + file("out.json"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_TRUE(result().at("accepted").get<bool>());
+  EXPECT_NE(result().at("rms_residual_mm"), with.at("rms_residual_mm"));  // other skin was used
+  EXPECT_NEAR(
+      result().at("rms_residual_mm").get<double>(), with.at("rms_residual_mm").get<double>(), 0.05);
+  const CliRun missing = compare("--callus-b " + file("none.json"));
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.output.find("none.json"), std::string::npos) << missing.output;
 }
 
 TEST_F(CliCompare, RefusalLeavesNumbersAndNoMap) {
