@@ -225,7 +225,7 @@ double findingRows(Flow& flow, double left_mm, double top_mm, bool paint) {
   double y = top_mm;
   for (const auto& [name, value] : flow.content.findings.rows) {
     const std::vector<TextRun> label{{say.term(name), type::kCell.in(ink::kGrey)}};
-    const QString text = value.empty() ? say(phrase::kNotRecorded) : say.term(value);
+    const QString text = value.empty() ? say(phrase::kNotRecorded) : shortTerm(value, say);
     const std::vector<TextRun> said{
         {text, value.empty() ? type::kCell.in(ink::kGrey) : type::kCell}};
     const double width = page::kRight - left_mm - kNameWidth - 1.0;

@@ -24,8 +24,15 @@ struct Flow {
   }
 };
 
-/// A paragraph over the whole width, with a frame of that name.
+/// A paragraph over the whole width, with a frame of that name. What is higher than a page goes on
+/// on the next ones, as nothing that a person wrote is cut.
 void paragraphOf(Flow& flow, const std::string& name, const std::vector<TextRun>& runs);
+
+/// As many lines from `first` as fit the page. @return the first that is left
+std::size_t paintFitting(Flow& flow,
+                         const QPointF& top_left_mm,
+                         const TextLines& text,
+                         std::size_t first);
 
 /// Grey words at the right end of a section's head.
 void headNote(Flow& flow, const QString& text);

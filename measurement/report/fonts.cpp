@@ -3,6 +3,8 @@
 #include <QFontDatabase>
 #include <QRawFont>
 
+#include <algorithm>
+
 namespace tarsus {
 namespace {
 
@@ -32,10 +34,35 @@ Expected<void> checkFonts() {
   return {};
 }
 
+const QStringList& allowedFamilies() {
+  // Noto Sans holds Latin, Greek and Cyrillic. All but the Chinese are of fonts-noto-core.
+  static const QStringList families{textFamily(),
+                                    QStringLiteral("Noto Sans Math"),
+                                    QStringLiteral("Noto Sans CJK SC"),
+                                    QStringLiteral("Noto Sans Arabic"),
+                                    QStringLiteral("Noto Sans Hebrew"),
+                                    QStringLiteral("Noto Sans Devanagari"),
+                                    QStringLiteral("Noto Sans Thai"),
+                                    QStringLiteral("Noto Sans Armenian"),
+                                    QStringLiteral("Noto Sans Georgian"),
+                                    QStringLiteral("Noto Sans Ethiopic"),
+                                    QStringLiteral("Noto Sans Bengali"),
+                                    QStringLiteral("Noto Sans Tamil"),
+                                    QStringLiteral("Noto Sans Telugu"),
+                                    QStringLiteral("Noto Sans Gujarati"),
+                                    QStringLiteral("Noto Sans Gurmukhi"),
+                                    QStringLiteral("Noto Sans Kannada"),
+                                    QStringLiteral("Noto Sans Malayalam"),
+                                    QStringLiteral("Noto Sans Sinhala"),
+                                    QStringLiteral("Noto Sans Khmer"),
+                                    QStringLiteral("Noto Sans Lao"),
+                                    QStringLiteral("Noto Sans Myanmar")};
+  return families;
+}
+
 std::vector<QRawFont> allowedFonts() {
   std::vector<QRawFont> fonts;
-  for (const QString& family :
-       {textFamily(), QStringLiteral("Noto Sans Math"), QStringLiteral("Noto Sans CJK SC")}) {
+  for (const QString& family : allowedFamilies()) {
     QRawFont font = rawFont(family, false);
     if (font.isValid() && font.familyName() == family) {
       fonts.push_back(std::move(font));
@@ -44,14 +71,30 @@ std::vector<QRawFont> allowedFonts() {
   return fonts;
 }
 
-QString printable(const QString& text, const std::vector<QRawFont>& fonts) {
+QString printable(const QString& text,
+                  const std::vector<QRawFont>& fonts,
+                  std::set<uint>* missing) {
+  constexpr uint kBox = 0x25A1;
+  const auto held = [&](uint letter) {
+    return std::ranges::any_of(
+        fonts, [&](const QRawFont& font) { return font.supportsCharacter(letter); });
+  };
+  const uint box = held(kBox) ? kBox : uint{'?'};
   QString result;
   for (const uint letter : text.toUcs4()) {
-    bool held = false;
-    for (const QRawFont& font : fonts) {
-      held = held || font.supportsCharacter(letter);
+    const QChar::Category category = QChar::category(letter);
+    uint printed = letter;
+    if (category == QChar::Other_Control) {
+      printed = ' ';
+    } else if (!held(letter)) {
+      if (category == QChar::Other_Format || category == QChar::Mark_NonSpacing) {
+        continue;  // of an emoji, or of a letter that is itself a box
+      }
+      printed = box;
+      if (missing != nullptr) {
+        missing->insert(letter);
+      }
     }
-    const uint printed = held ? letter : uint{'?'};
     result += QString::fromUcs4(&printed, 1);
   }
   return result;

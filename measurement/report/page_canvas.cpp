@@ -4,6 +4,7 @@
 #include <QImage>
 
 #include <algorithm>
+#include <utility>
 
 namespace tarsus {
 namespace {
@@ -27,6 +28,7 @@ QImage toQImage(const ColorImage& image) {
 struct Word {
   QString text;
   const TextStyle* style = nullptr;
+  std::size_t run = 0;
   bool after_space = false;
   bool after_break = false;
 };
@@ -76,14 +78,16 @@ std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
     QString current;
     const auto flush = [&] {
       if (!current.isEmpty()) {
-        words.push_back({current, &run.style, space, line_break});
+        words.push_back(
+            {current, &run.style, static_cast<std::size_t>(&run - runs.data()), space, line_break});
         current.clear();
         space = false;
         line_break = false;
       }
     };
     for (const QChar letter : withTiedUnits(run.text)) {
-      if (letter == QLatin1Char(' ') || letter == QLatin1Char('\n')) {
+      const bool blank = letter == QLatin1Char(' ') || letter == QLatin1Char('\t');
+      if (blank || letter == QLatin1Char('\n') || letter == QLatin1Char('\r')) {
         flush();
         space = true;
         line_break = line_break || letter == QLatin1Char('\n');
@@ -99,6 +103,29 @@ std::vector<Word> wordsOf(const std::vector<TextRun>& runs) {
   return words;
 }
 
+bool runsRightToLeft(const TextLines::Piece& piece) {
+  return std::ranges::any_of(piece.text.toUcs4(), [](uint letter) {
+    const QChar::Direction direction = QChar::direction(letter);
+    return direction == QChar::DirR || direction == QChar::DirAL;
+  });
+}
+
+/// Words of Arabic or Hebrew follow one another from the right: Qt orders them, in one piece.
+std::vector<TextLines::Piece> inReadingOrder(const std::vector<TextLines::Piece>& line) {
+  if (std::ranges::none_of(line, runsRightToLeft)) {
+    return line;
+  }
+  std::vector<TextLines::Piece> joined;
+  for (const TextLines::Piece& piece : line) {
+    if (!joined.empty() && joined.back().run == piece.run) {
+      joined.back().text += (piece.after_space ? QStringLiteral(" ") : QString()) + piece.text;
+    } else {
+      joined.push_back(piece);
+    }
+  }
+  return joined;
+}
+
 }  // namespace
 
 PageCanvas::PageCanvas(QPdfWriter& writer, const Speech& speech, ReportPaper paper)
@@ -110,6 +137,7 @@ PageCanvas::PageCanvas(QPdfWriter& writer, const Speech& speech, ReportPaper pap
       paper_(paper) {
   painter_.setRenderHint(QPainter::LosslessImageRendering);
   painter_.setRenderHint(QPainter::Antialiasing);
+  painter_.setLayoutDirection(Qt::LayoutDirectionAuto);
 }
 
 double PageCanvas::paperHeight() const {
@@ -135,9 +163,7 @@ void PageCanvas::nextPage() {
 
 QFont PageCanvas::fontOf(const TextStyle& style) const {
   QFont font(QStringLiteral("Noto Sans"));
-  font.setFamilies({QStringLiteral("Noto Sans"),
-                    QStringLiteral("Noto Sans Math"),
-                    QStringLiteral("Noto Sans CJK SC")});
+  font.setFamilies(allowedFamilies());
   font.setPointSizeF(style.size_pt);
   font.setBold(style.bold);
   font.setUnderline(style.underlined);
@@ -174,7 +200,18 @@ void PageCanvas::text(const QPointF& at_mm,
                       Qt::Alignment alignment) {
   painter_.setFont(fontOf(style));
   painter_.setPen(style.color);
-  painter_.drawText(baselineOf(at_mm, text, style, alignment), printable(text, fonts_));
+  painter_.drawText(baselineOf(at_mm, text, style, alignment), painted(text));
+}
+
+QString PageCanvas::painted(const QString& text) { return printable(text, fonts_, &unprinted_); }
+
+QString PageCanvas::takeUnprinted() {
+  QStringList letters;
+  for (const uint letter : std::exchange(unprinted_, {})) {
+    letters << QStringLiteral("U+") +
+                   QString::number(letter, 16).toUpper().rightJustified(4, QLatin1Char('0'));
+  }
+  return letters.join(QStringLiteral(", "));
 }
 
 void PageCanvas::haloText(const QPointF& at_mm,
@@ -201,56 +238,101 @@ void PageCanvas::textUpwards(const QPointF& middle_mm,
   painter_.restore();
 }
 
-double PageCanvas::layRuns(const QPointF& top_left_mm,
-                           double width_mm,
-                           const std::vector<TextRun>& runs,
-                           bool paint) {
-  double x = 0.0;
-  double y = 0.0;
-  double line_mm = runs.empty() ? 0.0 : runs.front().style.line_pt * kMmPerPoint;
-  for (const TextRun& run : runs) {
-    line_mm = std::max(line_mm, run.style.line_pt * kMmPerPoint);
+int PageCanvas::fitting(const QString& text, const TextStyle& style, double width_mm) const {
+  const auto length = static_cast<int>(text.size());
+  const auto fits = [&](int letters) { return widthOf(text.left(letters), style) <= width_mm; };
+  constexpr int kShort = 40;
+  if (length <= 1 || (length <= kShort && fits(length))) {
+    return length;
   }
-  const auto put = [&](const QString& piece, const TextStyle& style, double piece_mm) {
-    if (paint) {
-      text({top_left_mm.x() + x, top_left_mm.y() + y}, piece, style);
+  // Doubled first, so that never much more than what fits is measured.
+  int low = 1;
+  int high = 2;
+  while (high < length && fits(high)) {
+    low = high;
+    high *= 2;
+  }
+  if (high >= length) {
+    if (fits(length)) {
+      return length;
     }
-    x += piece_mm;
-  };
+    high = length;
+  }
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (fits(middle) ? low : high) = middle;
+  }
+  int cut = low;
+  while (cut > 1 && (text[cut].isLowSurrogate() || text[cut].isMark())) {
+    --cut;
+  }
+  return text[cut].isLowSurrogate() ? cut + 1 : cut;
+}
+
+TextLines PageCanvas::linesOf(double width_mm, const std::vector<TextRun>& runs) const {
+  TextLines result;
+  if (runs.empty()) {
+    return result;
+  }
+  for (const TextRun& run : runs) {
+    result.line_mm = std::max(result.line_mm, run.style.line_pt * kMmPerPoint);
+  }
+  result.lines.emplace_back();
+  double x = 0.0;
   for (const Word& word : wordsOf(runs)) {
-    const double space_mm =
-        word.after_space && x > 0.0 ? widthOf(QStringLiteral(" "), *word.style) : 0.0;
-    double word_mm = widthOf(word.text, *word.style);
-    if (x > 0.0 && (word.after_break || x + space_mm + word_mm > width_mm)) {
+    bool after_space = word.after_space;
+    const auto put = [&](const QString& piece, const TextStyle& style) {
+      result.lines.back().push_back({piece, style, x, word.run, after_space && x > 0.0});
+      after_space = false;
+    };
+    const TextStyle& style = *word.style;
+    const double space_mm = word.after_space && x > 0.0 ? widthOf(QStringLiteral(" "), style) : 0.0;
+    const int first = fitting(word.text, style, width_mm);
+    QString rest = word.text;
+    double rest_mm = first < rest.size() ? width_mm : widthOf(rest, style);
+    if (x > 0.0 && (word.after_break || first < rest.size() || x + space_mm + rest_mm > width_mm)) {
       x = 0.0;
-      y += line_mm;
+      result.lines.emplace_back();
     } else {
       x += space_mm;
     }
-    QString rest = word.text;
-    while (word_mm > width_mm && rest.size() > 1) {  // wider than a line: break between letters
-      int letters = rest.size() - 1;
-      while (letters > 1 && widthOf(rest.left(letters), *word.style) > width_mm) {
-        --letters;
-      }
-      put(rest.left(letters), *word.style, 0.0);
+    int letters = first;
+    while (letters < rest.size()) {  // wider than a line: break between letters
+      put(rest.left(letters), style);
+      result.lines.emplace_back();
       rest = rest.mid(letters);
-      word_mm = widthOf(rest, *word.style);
-      y += line_mm;
+      letters = fitting(rest, style, width_mm);
+      rest_mm = letters < rest.size() ? width_mm : widthOf(rest, style);
     }
-    put(rest, *word.style, word_mm);
+    put(rest, style);
+    x += rest_mm;
   }
-  return runs.empty() ? 0.0 : y + line_mm;
+  return result;
+}
+
+double PageCanvas::paint(const QPointF& top_left_mm,
+                         const TextLines& text,
+                         std::size_t first,
+                         std::size_t count) {
+  const std::size_t end = std::min(first + count, text.lines.size());
+  double y = top_left_mm.y();
+  for (std::size_t i = first; i < end; ++i, y += text.line_mm) {
+    for (const TextLines::Piece& piece : inReadingOrder(text.lines[i])) {
+      this->text({top_left_mm.x() + piece.x_mm, y}, piece.text, piece.style);
+    }
+  }
+  return y - top_left_mm.y();
 }
 
 double PageCanvas::paragraph(const QPointF& top_left_mm,
                              double width_mm,
                              const std::vector<TextRun>& runs) {
-  return layRuns(top_left_mm, width_mm, runs, true);
+  const TextLines text = linesOf(width_mm, runs);
+  return paint(top_left_mm, text, 0, text.lines.size());
 }
 
-double PageCanvas::paragraphHeight(double width_mm, const std::vector<TextRun>& runs) {
-  return layRuns({}, width_mm, runs, false);
+double PageCanvas::paragraphHeight(double width_mm, const std::vector<TextRun>& runs) const {
+  return linesOf(width_mm, runs).height();
 }
 
 void PageCanvas::path(const QPainterPath& path_mm, const QPen& pen_mm, const QBrush& brush) {

@@ -10,11 +10,27 @@
 #include <QPainterPath>
 #include <QPdfWriter>
 #include <QRawFont>
+#include <QStringList>
 
+#include <set>
 #include <string>
 #include <vector>
 
 namespace tarsus {
+
+/// A paragraph broken into lines, to be painted at once or page by page.
+struct TextLines {
+  struct Piece {
+    QString text;
+    TextStyle style;
+    double x_mm = 0.0;
+    std::size_t run = 0;
+    bool after_space = false;
+  };
+  double line_mm = 0.0;
+  std::vector<std::vector<Piece>> lines;
+  [[nodiscard]] double height() const { return line_mm * static_cast<double>(lines.size()); }
+};
 
 /// Paints text by point sizes and everything else by millimetres of paper, y down, and remembers
 /// where the named frames stand.
@@ -48,7 +64,16 @@ class PageCanvas {
   /// Wraps runs at spaces, a word wider than the line between letters.
   /// @return the height used [mm]
   double paragraph(const QPointF& top_left_mm, double width_mm, const std::vector<TextRun>& runs);
-  [[nodiscard]] double paragraphHeight(double width_mm, const std::vector<TextRun>& runs);
+  [[nodiscard]] double paragraphHeight(double width_mm, const std::vector<TextRun>& runs) const;
+  /// The lines of a paragraph. The time grows with the length of the text, also of a single word.
+  [[nodiscard]] TextLines linesOf(double width_mm, const std::vector<TextRun>& runs) const;
+  /// Paints some of them. @return the height used [mm]
+  double paint(const QPointF& top_left_mm,
+               const TextLines& text,
+               std::size_t first,
+               std::size_t count);
+  /// How many letters of the text fit the width: at least one.
+  [[nodiscard]] int fitting(const QString& text, const TextStyle& style, double width_mm) const;
 
   void path(const QPainterPath& path_mm, const QPen& pen_mm, const QBrush& brush = Qt::NoBrush);
   void line(const QPointF& a_mm, const QPointF& b_mm, double width_mm, const QColor& color);
@@ -59,6 +84,9 @@ class PageCanvas {
   void clip(const QRectF& box_mm);
   void clip(const QPainterPath& path_mm);
   void unclip();
+
+  /// "U+1F600, ...": the letters that were replaced by a box since this was last asked for.
+  [[nodiscard]] QString takeUnprinted();
 
   void frame(std::string name, const QRectF& box_mm);
   [[nodiscard]] const std::vector<ReportFrame>& frames() const { return frames_; }
@@ -73,10 +101,9 @@ class PageCanvas {
                                    const QString& text,
                                    const TextStyle& style,
                                    Qt::Alignment alignment) const;
-  double layRuns(const QPointF& top_left_mm,
-                 double width_mm,
-                 const std::vector<TextRun>& runs,
-                 bool paint);
+
+  /// What is painted for a text; what no font holds is noted.
+  [[nodiscard]] QString painted(const QString& text);
 
   QPdfWriter& writer_;
   Speech speech_;
@@ -87,16 +114,24 @@ class PageCanvas {
   std::vector<ReportFrame> frames_;
   ReportPaper paper_;
   std::vector<PdfBookmark> bookmarks_;
+  std::set<uint> unprinted_;
 };
 
 /// Whether the report's fonts are really there: Qt takes any other font without a word.
 /// @errors FontMissing
 [[nodiscard]] Expected<void> checkFonts();
 
-/// The fonts that the report may use and that are installed.
+/// The families that the report may use, in the order in which a letter is looked for.
+[[nodiscard]] const QStringList& allowedFamilies();
+
+/// Those of them that are installed.
 [[nodiscard]] std::vector<QRawFont> allowedFonts();
 
-/// The text with each letter that none of the fonts holds replaced by "?".
-[[nodiscard]] QString printable(const QString& text, const std::vector<QRawFont>& fonts);
+/// The text with a box for each letter that none of the fonts holds; marks that only change how
+/// such a letter looks are left out.
+/// @param missing  takes the letters that were replaced; may be null
+[[nodiscard]] QString printable(const QString& text,
+                                const std::vector<QRawFont>& fonts,
+                                std::set<uint>* missing = nullptr);
 
 }  // namespace tarsus

@@ -2,6 +2,8 @@
 
 #include "measurement/report/phrases.h"
 
+#include <algorithm>
+
 namespace tarsus {
 namespace {
 
@@ -19,13 +21,30 @@ QString elided(const PageCanvas& canvas, QString text, const TextStyle& style, d
   if (canvas.widthOf(text, style) <= width_mm) {
     return text;
   }
-  while (text.size() > 1 && canvas.widthOf(text + QStringLiteral(u"\u2026"), style) > width_mm) {
-    text.chop(1);
-  }
-  return text + QStringLiteral(u"\u2026");
+  const QString mark = QStringLiteral(u"\u2026");
+  const double room = std::max(0.0, width_mm - canvas.widthOf(mark, style));
+  return text.left(canvas.fitting(text, style, room)) + mark;
 }
 
+constexpr int kLongText = 160;
+
 }  // namespace
+
+bool isLongText(const std::string& text) { return QString::fromStdString(text).size() > kLongText; }
+
+QString shortTerm(const std::string& text, const Speech& say) {
+  return isLongText(text) ? shortEntered(text, say) : say.term(text);
+}
+
+QString shortEntered(const std::string& text, const Speech& say) {
+  if (!isLongText(text)) {
+    return say.entered(text);
+  }
+  const QString whole = QString::fromStdString(text);
+  int cut = kLongText - 20;
+  cut -= whole[cut].isLowSurrogate() ? 1 : 0;
+  return whole.left(cut) + QStringLiteral(u"\u2026 ") + say(phrase::kSeeNine);
+}
 
 bool isSigned(const ReportContent& content) {
   return content.record && content.record->state != ReportState::Draft &&
@@ -154,13 +173,14 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
       bold.size_pt -= 0.5;
     }
     // Where it is still too long the place of the wound is cut, never the visit.
-    while (wound.size() > 4 && canvas.widthOf(name + rest, bold) > room) {
-      wound = wound.left(wound.size() - 2).trimmed() + QChar(0x2026);
+    const QString shown = elided(canvas, name, bold, 0.4 * room);
+    if (canvas.widthOf(shown + rest, bold) > room) {
+      const double others = canvas.widthOf(shown + runningLine(content, {}, say), bold);
+      wound = elided(canvas, wound, bold, std::max(8.0, room - others));
       rest = runningLine(content, wound, say);
     }
     TextStyle rest_style = bold;
     rest_style.bold = !content.record;
-    const QString shown = elided(canvas, name, bold, 0.4 * room);
     const double name_mm = canvas.widthOf(shown, bold);
     canvas.text({page::kLeft, top + 0.6}, shown, bold);
     canvas.text({page::kLeft + name_mm, top + 0.6},
@@ -179,6 +199,11 @@ double pageHead(PageCanvas& canvas, const ReportContent& content) {
 void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages) {
   const Speech& say = canvas.speech();
   const double top = canvas.footerTop();
+  if (const QString letters = canvas.takeUnprinted(); !letters.isEmpty()) {
+    canvas.text({page::kLeft, top - 3.25},
+                elided(canvas, say(phrase::kUnprinted, letters), type::kSmall, page::kContentWidth),
+                type::kSmall);
+  }
   canvas.line({page::kLeft, top}, {page::kRight, top}, 0.18, ink::kGrey);
   // As narrow as two lines allow, wider where a language needs it.
   const std::vector<TextRun> use{{say(phrase::kResearchUse), type::kSmall.in(ink::kBlack)}};
@@ -200,8 +225,18 @@ void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages) {
                                               : shortHash(content.model_sha256))
           << say(phrase::kNoRecordHash);
   }
-  facts << say(phrase::kProgram, QString::fromStdString(content.version))
-        << say(phrase::kCreated, say.dateTime(content.created));
+  // Beside the research-use line, as both do not fit one line with the hashes.
+  const double beside = page::kContentWidth - width - 3.0;
+  const QString created = say(phrase::kCreated, say.dateTime(content.created));
+  const QString program = say(phrase::kProgram, QString::fromStdString(content.version));
+  canvas.text({page::kRight, top + 1.0},
+              elided(canvas, created, type::kSmall, beside),
+              type::kSmall,
+              Qt::AlignRight);
+  canvas.text({page::kRight, top + 4.2},
+              elided(canvas, program, type::kSmall, beside),
+              type::kSmall,
+              Qt::AlignRight);
   const QString number = say(phrase::kPage, QString::number(canvas.page()), QString::number(pages));
   const TextStyle number_style{7.5, 9, true, ink::kBlack};
   const double room = page::kContentWidth - canvas.widthOf(number, number_style) - 3.0;

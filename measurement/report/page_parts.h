@@ -20,6 +20,13 @@ void pageFoot(PageCanvas& canvas, const ReportContent& content, int pages);
 /// 5 mm black and 5 mm white with "1 cm", true to the picture's scale, at its lower left.
 void scaleBar(PageCanvas& canvas, const QRectF& picture_mm, double print_scale);
 
+/// Too long for the place where it would stand: shortened there and in full in section 9.
+[[nodiscard]] bool isLongText(const std::string& text);
+/// A word of the record or what a person typed; of a long text the beginning.
+[[nodiscard]] QString shortTerm(const std::string& text, const Speech& say);
+/// What a person typed, or "not recorded"; of a long text the beginning.
+[[nodiscard]] QString shortEntered(const std::string& text, const Speech& say);
+
 enum class Badge { Plain, Dashed, Ticked };
 /// A word in a frame; dashed for what may still change. @return where there is room left of it [mm]
 double badge(PageCanvas& canvas, const QPointF& right_top_mm, const QString& text, Badge kind);

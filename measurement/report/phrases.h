@@ -99,6 +99,26 @@ inline constexpr Phrase kDeeperAt{"The bed is deeper than at visit %1 at %2 o’
 inline constexpr Phrase kUnfitScan{"This scan is not fit for measurement", "Diese Aufnahme ist zum Messen ungeeignet", "Cette numérisation est impropre à la mesure", "Este escaneo no es apto para medir", "此次扫描不适合测量"};
 inline constexpr Phrase kScanAgain{"Do not use the numbers; scan again.", "Die Zahlen nicht verwenden; erneut aufnehmen.", "Ne pas utiliser les valeurs ; numériser à nouveau.", "No utilice los números; escanee de nuevo.", "请勿使用这些数值；请重新扫描。"};
 
+inline constexpr Phrase kNotSamePlace{
+  "The numbers of both visits stand, but that both show the same place could not be confirmed (see 8).",
+  "Die Zahlen beider Visiten gelten, doch dass beide dieselbe Stelle zeigen, ließ sich nicht bestätigen (siehe 8).",
+  "Les valeurs des deux visites restent valables, mais il n’a pas pu être confirmé que les deux montrent le même endroit (voir 8).",
+  "Los números de ambas visitas son válidos, pero no se pudo confirmar que ambas muestren el mismo lugar (véase 8).",
+  "两次就诊的数值均有效，但无法确认两者显示的是同一部位（见第 8 节）。"};
+inline constexpr Phrase kNoScanWords{"This visit has no usable scan; nothing was measured on a model.", "Diese Visite hat keine brauchbare Aufnahme; an keinem Modell wurde gemessen.", "Cette visite n’a pas de numérisation utilisable ; rien n’a été mesuré sur un modèle.", "Esta visita no tiene un escaneo utilizable; nada se midió en un modelo.", "本次就诊无可用扫描；未在模型上测量。"};
+inline constexpr Phrase kNoScan{"No usable scan", "Keine brauchbare Aufnahme", "Pas de numérisation utilisable", "Sin escaneo utilizable", "无可用扫描"};
+inline constexpr Phrase kEnteredAt{"entered for %1 by %2", "erfasst für %1 · %2", "saisi pour %1 par %2", "registrado para %1 por %2", "录入 %1 · %2"};
+inline constexpr Phrase kDraftVisit{"(draft)", "(Entwurf)", "(brouillon)", "(borrador)", "（草稿）"};
+inline constexpr Phrase kPhotograph{"Photograph: %1 · without scale, not for measuring", "Foto: %1 · ohne Maßstab, nicht zum Messen", "Photographie : %1 · sans échelle, pas pour mesurer", "Fotografía: %1 · sin escala, no sirve para medir", "照片：%1 · 无比例尺，不可用于测量"};
+inline constexpr Phrase kMorePhotographs{"%1 more photographs in the record", "%1 weitere Fotos im Datensatz", "%1 autres photographies dans le dossier", "%1 fotografías más en el registro", "记录中另有 %1 张照片"};
+inline constexpr Phrase kNoPhotograph{"No photograph was kept with this visit.", "Zu dieser Visite ist kein Foto abgelegt.", "Aucune photographie n’a été conservée avec cette visite.", "No se guardó ninguna fotografía con esta visita.", "本次就诊未保存照片。"};
+inline constexpr Phrase kNoPictureFile{"Left out, as they are no JPEG or PNG pictures: %1.", "Weggelassen, da keine Bilder in JPEG oder PNG: %1.", "Omis, car ce ne sont pas des images JPEG ou PNG : %1.", "Omitidos por no ser imágenes JPEG o PNG: %1.", "以下文件不是 JPEG 或 PNG 图像，未印出：%1。"};
+inline constexpr Phrase kRulerTyped{"Length × width, ruler", "Länge × Breite, Lineal", "Longueur × largeur, règle", "Longitud × anchura, regla", "长 × 宽（尺）"};
+inline constexpr Phrase kProbeTyped{"Depth, probe", "Tiefe, Sonde", "Profondeur, stylet", "Profundidad, sonda", "深度（探针）"};
+inline constexpr Phrase kByRuler{"typed, by ruler", "eingegeben, mit dem Lineal", "saisi, à la règle", "escrito, con regla", "手工录入，尺量"};
+inline constexpr Phrase kTypedByProbe{"typed, by probe", "eingegeben, mit der Sonde", "saisi, au stylet", "escrito, con sonda", "手工录入，探针"};
+inline constexpr Phrase kUnprinted{"□: letters that no font here holds: %1", "□: Zeichen, die keine Schrift hier enthält: %1", "□ : caractères absents des polices : %1", "□: letras que ninguna fuente contiene: %1", "□：字体中没有的字符：%1"};
+
 // 2, 3 Pictures and section
 inline constexpr Phrase kFootMap{"Foot map", "Fußkarte", "Carte du pied", "Mapa del pie", "足部图"};
 inline constexpr Phrase kWholeModel{"Whole model, 1 : %1", "Ganzes Modell, 1 : %1", "Modèle entier, 1 : %1", "Modelo entero, 1 : %1", "整体模型，1 : %1"};
@@ -279,6 +299,7 @@ inline constexpr Phrase kNoComparison{"No comparison was made.", "Kein Vergleich
 
 // 9 to 12
 inline constexpr Phrase kNotesAndPlan{"Notes and plan", "Notizen und Plan", "Notes et plan", "Notas y plan", "备注与计划"};
+inline constexpr Phrase kSeeNine{"(in full in 9)", "(vollständig unter 9)", "(en entier en 9)", "(completo en 9)", "（全文见第 9 节）"};
 inline constexpr Phrase kNotes{"Notes", "Notizen", "Notes", "Notas", "备注"};
 inline constexpr Phrase kPlan{"Plan", "Plan", "Plan", "Plan", "计划"};
 inline constexpr Phrase kQuality{"Quality and method", "Qualität und Methode", "Qualité et méthode", "Calidad y método", "质量与方法"};

@@ -523,7 +523,7 @@ std::vector<TextRun> eventRuns(const ReportContent& content, const Speech& say) 
   for (const ReportEvent* event : shown) {
     runs.push_back({QString(QLatin1Char(letter++)), type::kCaption.asBold()});
     runs.push_back(
-        {QLatin1Char(' ') + say.term(event->text) +
+        {QLatin1Char(' ') + shortTerm(event->text, say) +
              (event == shown.back() ? QStringLiteral(". ") : QStringLiteral(u" \u00B7 ")),
          type::kCaption});
   }
