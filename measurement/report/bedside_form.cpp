@@ -2,6 +2,7 @@
 
 #include "measurement/report/changes.h"
 #include "measurement/report/key_values.h"
+#include "measurement/report/no_scan.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/phrases.h"
 #include "measurement/report/pictures.h"
@@ -32,7 +33,7 @@ double identity(PageCanvas& canvas, const ReportContent& content, double top_mm)
   double y = top_mm;
   y += canvas.paragraph({page::kLeft, y},
                         badge_left - page::kLeft,
-                        {{say.entered(record.patient_name) + QStringLiteral("  "), who},
+                        {{shortEntered(record.patient_name, say) + QStringLiteral("  "), who},
                          {say(phrase::kBorn, say.date(record.birth_date)) + dot() +
                               say(phrase::kId, say.entered(record.patient_id)),
                           line}});
@@ -323,7 +324,7 @@ double formRows(PageCanvas& canvas, const ReportContent& content, double top_mm)
   const auto choice = [&](const char* name, const QStringList& labels) {
     const QString known = findingOf(content, name);
     known.isEmpty() ? rows.boxes(say.term(name), labels)
-                    : rows.said(say.term(name), {{say.term(known.toStdString()), text}});
+                    : rows.said(say.term(name), {{shortTerm(known.toStdString(), say), text}});
   };
   choice("dressing",
          {say(phrase::kFoam),
@@ -365,7 +366,13 @@ void bedsideForm(PageCanvas& canvas, const ReportContent& content) {
   double y = pageHead(canvas, content);
   y = identity(canvas, content, y);
   y = greatNumbers(canvas, content, y);
-  y = views(canvas, content, y);
+  if (content.comparison && !content.comparison->result.registration.accepted) {
+    y += canvas.paragraph({page::kLeft, y},
+                          page::kContentWidth,
+                          {{canvas.speech()(phrase::kNotSamePlace), type::kCell.asBold()}}) +
+         1.4;
+  }
+  y = content.no_scan ? noScan(canvas, content, y, 70.0) : views(canvas, content, y);
   y = formRows(canvas, content, y);
   handLines(canvas, y);
   pageFoot(canvas, content, 1);

@@ -90,6 +90,11 @@ const ReportVisit* firstVisit(const ReportContent& content) {
   return content.visits.size() < 2 ? nullptr : &content.visits.front();
 }
 
+QString visitDate(const ReportVisit& visit, const Speech& say) {
+  const QString date = say.date(visit.date);
+  return visit.draft ? date + QLatin1Char(' ') + say(phrase::kDraftVisit) : date;
+}
+
 std::optional<int> daysBetween(const std::string& from, const std::string& to) {
   const QDate first = QDate::fromString(QString::fromStdString(from).left(10), Qt::ISODate);
   const QDate last = QDate::fromString(QString::fromStdString(to).left(10), Qt::ISODate);

@@ -21,6 +21,9 @@ struct ChangeCells {
 [[nodiscard]] const ReportVisit* previousVisit(const ReportContent& content);
 [[nodiscard]] const ReportVisit* firstVisit(const ReportContent& content);
 
+/// The day of a visit, and that it is a draft where nobody has signed it.
+[[nodiscard]] QString visitDate(const ReportVisit& visit, const Speech& say);
+
 /// Whole days from one ISO 8601 day to another; empty where one of them is none.
 [[nodiscard]] std::optional<int> daysBetween(const std::string& from, const std::string& to);
 

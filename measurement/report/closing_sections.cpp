@@ -25,6 +25,14 @@ QString groupedHash(const std::string& hash, const Speech& say) {
   return text;
 }
 
+void hashLine(Flow& flow, const char* name, const Phrase& label, const std::string& hash) {
+  const Speech& say = flow.canvas.speech();
+  paragraphOf(flow,
+              name,
+              {{say(label), type::kCaption.in(ink::kGrey)},
+               {QLatin1Char(' ') + groupedHash(hash, say), type::kCaption}});
+}
+
 Pairs qualityPairs(const ReportContent& content, const Speech& say) {
   Pairs pairs;
   for (const auto& [name, value] : content.quality) {
@@ -89,38 +97,18 @@ void warningsAndReasons(Flow& flow) {
   }
 }
 
-/// A text that may flow over pages, a line at a time: a clinician's words are never cut.
-/// @param text  what is left of it afterwards
-/// @return what fits the room
-QString fittingPart(PageCanvas& canvas, QString& text, double width_mm, double room_mm) {
-  const auto fits = [&](const QString& part) {
-    return canvas.paragraphHeight(width_mm, {{part, type::kWords}}) <= room_mm;
-  };
-  if (fits(text)) {
-    const QString whole = text;
-    text.clear();
-    return whole;
-  }
-  int low = 0;
-  int high = text.size();
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    (fits(text.left(middle)) ? low : high) = middle;
-  }
-  const int space =
-      std::max(text.lastIndexOf(QLatin1Char(' '), low), text.lastIndexOf(QLatin1Char('\n'), low));
-  const int cut = space > 0 ? space : std::max(1, low);
-  const QString part = text.left(cut);
-  text = text.mid(cut).trimmed();
-  return part;
-}
-
 struct NoteColumn {
   QString head;
-  QString rest;
+  TextLines text;
+  std::size_t next = 0;  ///< the first line not yet printed
+  [[nodiscard]] bool done() const { return next >= text.lines.size(); }
 };
 
-NoteColumn noteColumn(const Phrase& name, const ReportText& text, const Speech& say) {
+NoteColumn noteColumn(const PageCanvas& canvas,
+                      const Phrase& name,
+                      const ReportText& text,
+                      double width_mm) {
+  const Speech& say = canvas.speech();
   QStringList head{say(name)};
   if (!text.who.empty()) {
     head << QString::fromStdString(text.who);
@@ -128,7 +116,37 @@ NoteColumn noteColumn(const Phrase& name, const ReportText& text, const Speech& 
   if (!text.when.empty()) {
     head << say.dateTime(text.when);
   }
-  return {head.join(QStringLiteral(u" \u00B7 ")), say.entered(text.text)};
+  return {head.join(QStringLiteral(u" \u00B7 ")),
+          canvas.linesOf(width_mm, {{say.entered(text.text), type::kWords}})};
+}
+
+/// What section 5 and the trends had to shorten, in full.
+void longTexts(Flow& flow) {
+  const Speech& say = flow.canvas.speech();
+  const auto put = [&](const QString& name, const std::string& text) {
+    paragraphOf(flow,
+                "long text",
+                {{name + say.colon(), type::kCaption.in(ink::kGrey)},
+                 {QStringLiteral(" ") + QString::fromStdString(text), type::kWords}});
+  };
+  const ReportRecord& record = *flow.content.record;
+  for (const auto& [name, value] : {std::pair(&phrase::kPatient, &record.patient_name),
+                                    std::pair(&phrase::kPatient, &record.patient_id),
+                                    std::pair(&phrase::kHeadWho, &record.scanned_by)}) {
+    if (isLongText(*value)) {
+      put(say(*name), *value);
+    }
+  }
+  for (const auto& [name, value] : flow.content.findings.rows) {
+    if (isLongText(value)) {
+      put(say.term(name), value);
+    }
+  }
+  for (const ReportEvent& event : flow.content.events) {
+    if (isLongText(event.text)) {
+      put(say(phrase::kEvents) + QLatin1Char(' ') + say.date(event.date), event.text);
+    }
+  }
 }
 
 /// Volume and depth of the listed phantoms beside what is true, and what is known of this camera.
@@ -182,48 +200,53 @@ void notesSection(Flow& flow) {
   constexpr double kWidth = 86.0;
   flow.need(24.0);
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 9, say(phrase::kNotesAndPlan));
-  std::array<NoteColumn, 2> columns{noteColumn(phrase::kNotes, flow.content.notes, say),
-                                    noteColumn(phrase::kPlan, flow.content.plan, say)};
-  for (int part = 0; part == 0 || !columns[0].rest.isEmpty() || !columns[1].rest.isEmpty();
-       ++part) {
+  std::array<NoteColumn, 2> columns{
+      noteColumn(flow.canvas, phrase::kNotes, flow.content.notes, kWidth),
+      noteColumn(flow.canvas, phrase::kPlan, flow.content.plan, kWidth)};
+  for (int part = 0; part == 0 || !columns[0].done() || !columns[1].done(); ++part) {
     if (part > 0) {
       flow.y = flow.turn_page();
     }
     const double top = flow.y;
     double height = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
+      NoteColumn& column = columns[i];
+      if (column.done()) {
+        continue;
+      }
       const double x = page::kLeft + static_cast<double>(i) * kColumn;
-      flow.canvas.text({x, top}, columns[i].head, type::kCaption.in(ink::kGrey));
-      const double room = flow.canvas.contentBottom() - top - 4.0;
-      const QString piece = fittingPart(flow.canvas, columns[i].rest, kWidth, room);
-      height =
-          std::max(height, flow.canvas.paragraph({x, top + 3.9}, kWidth, {{piece, type::kWords}}));
+      flow.canvas.paragraph({x, top}, kWidth, {{column.head, type::kCaption.in(ink::kGrey)}});
+      const std::size_t first = column.next;
+      column.next = paintFitting(flow, {x, top + 3.9}, column.text, first);
+      height = std::max(height, column.text.line_mm * static_cast<double>(column.next - first));
     }
     flow.canvas.frame("notes " + std::to_string(part),
                       {page::kLeft, top, page::kContentWidth, height + 3.9});
     flow.y = top + height + 3.9 + page::kSectionGap;
   }
+  longTexts(flow);
 }
 
 void qualitySection(Flow& flow) {
   const Speech& say = flow.canvas.speech();
   flow.need(20.0);
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 10, say(phrase::kQuality));
+  if (flow.content.no_scan) {
+    if (isSigned(flow.content)) {
+      hashLine(flow, "record hash", phrase::kRecordSha, flow.content.record_sha256);
+    }
+    paragraphOf(flow, "method", {{say(phrase::kNoScanWords), type::kCell}});
+    return;
+  }
   qualityTable(flow);
-  const auto hashLine = [&](const char* name, const Phrase& label, const std::string& hash) {
-    paragraphOf(flow,
-                name,
-                {{say(label), type::kCaption.in(ink::kGrey)},
-                 {QLatin1Char(' ') + groupedHash(hash, say), type::kCaption}});
-  };
   for (const auto& [name, value] : flow.content.quality) {
     if (name == kScanHash) {
-      hashLine("scan hash", phrase::kScanSha, value);
+      hashLine(flow, "scan hash", phrase::kScanSha, value);
     }
   }
-  hashLine("model hash", phrase::kModelSha, flow.content.model_sha256);
+  hashLine(flow, "model hash", phrase::kModelSha, flow.content.model_sha256);
   if (isSigned(flow.content)) {
-    hashLine("record hash", phrase::kRecordSha, flow.content.record_sha256);
+    hashLine(flow, "record hash", phrase::kRecordSha, flow.content.record_sha256);
   }
   flow.y += 0.8;
   paragraphOf(flow, "method", {{say(phrase::kMethodText), type::kCell}});

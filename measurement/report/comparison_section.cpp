@@ -281,6 +281,17 @@ double tableColumn(Flow& flow, const ReportComparison& comparison, double top_mm
   return y + canvas.paragraph({kTableLeft, y}, width, registrationRuns(comparison, say));
 }
 
+QString earlierDate(const ReportContent& content,
+                    const ReportComparison& comparison,
+                    const Speech& say) {
+  for (const ReportVisit& visit : content.visits) {
+    if (visit.number == comparison.earlier_visit && visit.draft) {
+      return say.date(comparison.earlier_date) + QLatin1Char(' ') + say(phrase::kDraftVisit);
+    }
+  }
+  return say.date(comparison.earlier_date);
+}
+
 }  // namespace
 
 void comparisonSection(Flow& flow) {
@@ -301,7 +312,7 @@ void comparisonSection(Flow& flow) {
   headNote(flow,
            say(phrase::kComparisonNote,
                QString::number(comparison.earlier_visit),
-               say.date(comparison.earlier_date),
+               earlierDate(flow.content, comparison, say),
                QString::number(comparison.later_visit),
                say.date(comparison.later_date)));
   flow.y += sectionHead(canvas, {page::kLeft, flow.y}, 8, say(phrase::kComparison));

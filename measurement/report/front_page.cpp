@@ -2,6 +2,7 @@
 
 #include "measurement/report/changes.h"
 #include "measurement/report/key_values.h"
+#include "measurement/report/no_scan.h"
 #include "measurement/report/other_wounds.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/phrases.h"
@@ -48,9 +49,10 @@ std::vector<TextRun> patientRuns(const ReportRecord& record, const Speech& say) 
   if (const auto days = daysBetween(record.birth_date, record.visit_time)) {
     rest += dot() + say(phrase::kAge, QString::number(static_cast<int>(*days / 365.2425)));
   }
-  return {{say.entered(record.patient_name), type::kCell.asBold()},
-          {rest, type::kCell},
-          {QLatin1Char('\n') + say(phrase::kId, say.entered(record.patient_id)), type::kCell}};
+  return {
+      {shortEntered(record.patient_name, say), type::kCell.asBold()},
+      {rest, type::kCell},
+      {QLatin1Char('\n') + say(phrase::kId, shortEntered(record.patient_id, say)), type::kCell}};
 }
 
 std::vector<TextRun> visitRuns(const ReportContent& content, const Speech& say) {
@@ -64,7 +66,9 @@ std::vector<TextRun> visitRuns(const ReportContent& content, const Speech& say) 
     }
   }
   const QString time = QString::fromStdString(record.visit_time).mid(11, 5);
-  const QString scanned = say(phrase::kScanned, time, say.entered(record.scanned_by));
+  const QString scanned = say(content.no_scan ? phrase::kEnteredAt : phrase::kScanned,
+                              time,
+                              shortEntered(record.scanned_by, say));
   return {{say.date(record.visit_time), type::kCell.asBold()},
           {rest, type::kCell},
           {QLatin1Char('\n') + scanned, type::kCell}};
@@ -174,6 +178,10 @@ bool frontPage(PageCanvas& canvas, const ReportContent& content) {
                        {{sentenceInWords(content, rows, canvas.speech()), type::kWords}});
   canvas.frame("sentence", {page::kLeft, y, page::kContentWidth, words});
   y += words + page::kSectionGap;
+  if (content.no_scan) {
+    y = noScan(canvas, content, y, 100.0) + page::kSectionGap;
+    return otherWounds(canvas, content, y);
+  }
   const double foot_bottom = footMap(canvas, content, {page::kLeft, y});
   const double close_bottom = closeViews(canvas, content, {page::kLeft + 37.6, y});
   y = std::max(foot_bottom, close_bottom) + page::kSectionGap;

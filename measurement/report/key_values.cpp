@@ -170,7 +170,7 @@ double reductionCell(PageCanvas& canvas, const ReportContent& content, const QRe
   for (const QString& line : lines) {
     y += canvas.paragraph(cell.topLeft() + QPointF(0, y), cell.width(), {{line, small()}});
   }
-  const QString baseline = say(phrase::kBaselineIs, number, say.date(first.date));
+  const QString baseline = say(phrase::kBaselineIs, number, visitDate(first, say));
   y += canvas.paragraph(
            cell.topLeft() + QPointF(0, y + 0.6), cell.width(), {{baseline, type::kSmall}}) +
        0.6;

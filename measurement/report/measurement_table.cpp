@@ -1,5 +1,6 @@
 #include "measurement/report/changes.h"
 #include "measurement/report/key_values.h"
+#include "measurement/report/no_scan.h"
 #include "measurement/report/page_parts.h"
 #include "measurement/report/phrases.h"
 #include "measurement/report/sections.h"
@@ -169,6 +170,7 @@ struct TypedRow {
   QString beside;
   QString previous;
   QString baseline;
+  const Phrase* how = &phrase::kByProbe;
 };
 
 QString typedLength(const std::optional<double>& mm, const Speech& say) {
@@ -205,7 +207,7 @@ void drawTypedRow(Flow& flow, const TypedRow& row) {
   const Columns at = columnsOf(flow.content);
   const double y = flow.y + 0.5;
   flow.canvas.text({page::kLeft, y}, row.name, type::kCell);
-  flow.canvas.text({page::kLeft, y + 3.8}, say(phrase::kByProbe), type::kSmall);
+  flow.canvas.text({page::kLeft, y + 3.8}, say(*row.how), type::kSmall);
   const bool is_number = !row.beside.isEmpty();
   flow.canvas.text({at.today, y},
                    row.value,
@@ -236,7 +238,24 @@ void typedRows(Flow& flow) {
     tunnel.previous = typedLength(previous->tunnel_mm, say);
     tunnel.baseline = typedLength(first.tunnel_mm, say);
   }
-  flow.need(16.4);
+  std::vector<TypedRow> read;
+  if (const QString ruler = rulerText(findings, say); !ruler.isEmpty()) {
+    read.push_back({"ruler", say(phrase::kRulerTyped), ruler, QStringLiteral("mm"), {}, {}});
+    read.back().how = &phrase::kByRuler;
+  }
+  if (findings.probe_depth_mm) {
+    read.push_back({"probe depth",
+                    say(phrase::kProbeTyped),
+                    say.number(*findings.probe_depth_mm, 1),
+                    QStringLiteral("mm"),
+                    {},
+                    {}});
+    read.back().how = &phrase::kTypedByProbe;
+  }
+  flow.need(16.4 + 8.2 * static_cast<double>(read.size()));
+  for (const TypedRow& row : read) {
+    drawTypedRow(flow, row);
+  }
   drawTypedRow(flow, undermining);
   drawTypedRow(flow, tunnel);
 }
@@ -269,7 +288,10 @@ QString earlierReasons(const Flow& flow) {
 
 void tableNotes(Flow& flow, bool below_limit) {
   const Speech& say = flow.canvas.speech();
-  QStringList notes{say(phrase::kIntervalNote)};
+  QStringList notes;
+  if (!flow.content.no_scan) {
+    notes << say(phrase::kIntervalNote);
+  }
   if (previousVisit(flow.content) != nullptr) {
     notes << say(phrase::kChangeNote);
   }
@@ -295,9 +317,9 @@ void measurementSection(Flow& flow) {
     headNote(flow,
              say(phrase::kPreviousBaseline,
                  QString::number(previous->number),
-                 say.date(previous->date),
+                 visitDate(*previous, say),
                  QString::number(first.number),
-                 say.date(first.date)));
+                 visitDate(first, say)));
   }
   flow.y += sectionHead(flow.canvas, {page::kLeft, flow.y}, 4, say(phrase::kMeasurements));
   tableHead(flow);

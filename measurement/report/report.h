@@ -54,6 +54,9 @@ struct ReportContent {
   std::optional<SectionProfile> section;
   std::vector<std::pair<std::string, std::string>> quality;  ///< "Frames tracked" -> "600 of 600"
   bool fit_for_measurement = true;
+  bool no_scan = false;  ///< typed ruler and probe values alone: no model, no pictures of one
+  std::vector<ReportPhotograph> photographs;   ///< instead of a model's pictures
+  std::vector<std::string> left_out_pictures;  ///< files that are no picture, by their titles
   std::vector<std::string> refusal_reasons;
   std::string version;
   std::string model_sha256;

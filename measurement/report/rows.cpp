@@ -2,6 +2,7 @@
 
 #include "measurement/report/numbers.h"
 #include "measurement/report/phrases.h"
+#include "measurement/report/visit_content.h"
 #include "reconstruction/base/require.h"
 
 #include <algorithm>
@@ -13,6 +14,23 @@ namespace {
 
 constexpr double kCm2PerMm2 = 0.01;
 constexpr double kMlPerMm3 = 0.001;
+
+using Quantity = std::pair<const char*, std::optional<double> WoundMeasurement::*>;
+constexpr std::array kQuantities{
+    Quantity{"opening_area_mm2", &WoundMeasurement::opening_area_mm2},
+    Quantity{"bed_area_mm2", &WoundMeasurement::bed_area_mm2},
+    Quantity{"projected_area_mm2", &WoundMeasurement::projected_area_mm2},
+    Quantity{"perimeter_mm", &WoundMeasurement::perimeter_mm},
+    Quantity{"volume_mm3", &WoundMeasurement::volume_mm3},
+    Quantity{"volume_above_mm3", &WoundMeasurement::volume_above_mm3},
+    Quantity{"mean_depth_mm", &WoundMeasurement::mean_depth_mm},
+    Quantity{"max_depth_mm", &WoundMeasurement::max_depth_mm},
+    Quantity{"p99_depth_mm", &WoundMeasurement::p99_depth_mm},
+    Quantity{"length_mm", &WoundMeasurement::length_mm},
+    Quantity{"width_mm", &WoundMeasurement::width_mm},
+    Quantity{"length_clock_mm", &WoundMeasurement::length_clock_mm},
+    Quantity{"width_clock_mm", &WoundMeasurement::width_clock_mm},
+    Quantity{"unseen_bed_fraction", &WoundMeasurement::unseen_bed_fraction}};
 
 /// How one quantity is printed, before its number is known.
 struct Entry {
@@ -250,26 +268,19 @@ std::vector<MeasurementRow> measurementRows(const WoundMeasurement& measurement,
   return rows;
 }
 
+WoundMeasurement nothingMeasured(const std::string& reason) {
+  WoundMeasurement measurement;
+  for (const auto& [name, value] : kQuantities) {
+    measurement.not_measurable[name] = reason;
+  }
+  return measurement;
+}
+
 std::optional<double> measuredValue(const WoundMeasurement& m, const std::string& key) {
-  const std::array<std::pair<const char*, const std::optional<double>*>, 14> values{
-      {{"opening_area_mm2", &m.opening_area_mm2},
-       {"bed_area_mm2", &m.bed_area_mm2},
-       {"projected_area_mm2", &m.projected_area_mm2},
-       {"perimeter_mm", &m.perimeter_mm},
-       {"volume_mm3", &m.volume_mm3},
-       {"volume_above_mm3", &m.volume_above_mm3},
-       {"mean_depth_mm", &m.mean_depth_mm},
-       {"max_depth_mm", &m.max_depth_mm},
-       {"p99_depth_mm", &m.p99_depth_mm},
-       {"length_mm", &m.length_mm},
-       {"width_mm", &m.width_mm},
-       {"length_clock_mm", &m.length_clock_mm},
-       {"width_clock_mm", &m.width_clock_mm},
-       {"unseen_bed_fraction", &m.unseen_bed_fraction}}};
   const auto* found =
-      std::ranges::find_if(values, [&](const auto& entry) { return key == entry.first; });
-  TARSUS_REQUIRE(found != values.end(), "the table knows its quantities");
-  const std::optional<double>& value = *found->second;
+      std::ranges::find_if(kQuantities, [&](const auto& entry) { return key == entry.first; });
+  TARSUS_REQUIRE(found != kQuantities.end(), "the table knows its quantities");
+  const std::optional<double>& value = m.*(found->second);
   return value && std::isfinite(*value) && !m.not_measurable.contains(key) ? value : std::nullopt;
 }
 

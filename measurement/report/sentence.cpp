@@ -51,8 +51,12 @@ QString sinceSentence(const ReportContent& content,
     }
   }
   const auto days = daysBetween(previous.date, content.visits.back().date);
+  QString number = QString::number(previous.number);
+  if (previous.draft) {
+    number += QLatin1Char(' ') + say(phrase::kDraftVisit);
+  }
   return say(phrase::kSinceSentence,
-             QString::number(previous.number),
+             number,
              days ? QString::number(*days) : QStringLiteral("?"),
              clauses.join(say.semicolon()));
 }
@@ -82,6 +86,12 @@ QString hoursOfLoss(const ReportContent& content) {
   return runs.join(QStringLiteral(", "));
 }
 
+/// Without a usable scan there are no numbers of which the place could be in doubt.
+bool nothingScanned(const WoundMeasurement& measurement) {
+  const auto reason = measurement.not_measurable.find("opening_area_mm2");
+  return reason != measurement.not_measurable.end() && reason->second == kNoUsableScan;
+}
+
 }  // namespace
 
 QString sentenceInWords(const ReportContent& content,
@@ -90,6 +100,11 @@ QString sentenceInWords(const ReportContent& content,
   QStringList sentences;
   if (const ReportVisit* previous = previousVisit(content)) {
     sentences << sinceSentence(content, *previous, say);
+    const bool refused = content.comparison && !content.comparison->result.registration.accepted;
+    if (refused || (!content.comparison && !content.why_no_comparison.empty() && !content.no_scan &&
+                    !nothingScanned(previous->measurement))) {
+      sentences << say(phrase::kNotSamePlace);
+    }
     const QString hours = hoursOfLoss(content);
     if (!hours.isEmpty()) {
       sentences << say(
@@ -97,6 +112,10 @@ QString sentenceInWords(const ReportContent& content,
     }
   } else if (content.record) {
     sentences << say(phrase::kFirstVisit);
+  }
+  if (content.no_scan) {
+    sentences << say(phrase::kNoScanWords);
+    return sentences.join(say.gap());
   }
   QStringList missing;
   for (const MeasurementRow& row : rows) {

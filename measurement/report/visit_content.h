@@ -41,7 +41,7 @@ struct ReportRecord {
   std::string onset;
   std::string visit_id;
   std::string visit_time;
-  std::string scanned_by;
+  std::string scanned_by;  ///< who made the first measurement, or added the visit
   std::string clinic;
   std::string report_id;
   int version = 1;
@@ -58,6 +58,18 @@ struct ReportVisit {
   std::optional<TissueShares> tissue;
   std::optional<double> undermining_mm;  ///< by probe
   std::optional<double> tunnel_mm;
+  bool draft = false;  ///< said wherever the visit is named, as its numbers may still change
+};
+
+/// What stands for a quantity of a visit whose scan cannot be used.
+inline constexpr const char* kNoUsableScan = "no usable scan";
+/// A measurement in which every quantity is not measurable, for one reason.
+[[nodiscard]] WoundMeasurement nothingMeasured(const std::string& reason);
+
+/// A picture that was taken with a camera; nothing can be measured in it.
+struct ReportPhotograph {
+  ColorImage image;
+  std::string title;
 };
 
 /// Something that may explain a trend; letters are given in the order of time.
@@ -80,6 +92,9 @@ struct ReportFindings {
   bool undermining_recorded = false;  ///< false: not asked for; true and empty: none
   bool tunnels_recorded = false;
   std::vector<std::pair<std::string, std::string>> rows;  ///< "exudate_amount" -> "light"
+  std::optional<double> ruler_length_mm;                  ///< typed, as read from ruler and probe
+  std::optional<double> ruler_width_mm;
+  std::optional<double> probe_depth_mm;
   std::optional<int> infection_signs;  ///< of the five local ones; empty: not all were looked for
 };
 
@@ -139,14 +154,36 @@ struct ReportSignature {
   std::string who;
   std::string when;
   std::string key;
+  std::string reason = {};  ///< of a return
+};
+
+enum class ChangedKind {
+  Text,    ///< as a person typed it
+  Word,    ///< one of the form's words
+  Number,  ///< with the language's decimal mark
+  Time,    ///< ISO 8601
+  Wound    ///< "2 heel": number and place
 };
 
 /// Both values stay: the old one struck through.
-struct ReportAmendment {
-  int version = 2;
+struct ReportChange {
   std::string field;
   std::string old_value;
   std::string new_value;
+  ChangedKind kind = ChangedKind::Text;
+};
+
+/// The visit was measured again; nothing before where it had not been measured.
+struct ReportRemeasurement {
+  std::optional<WoundMeasurement> before;
+  WoundMeasurement now;
+};
+
+/// One new version of what was signed, with all that it changed.
+struct ReportAmendment {
+  int version = 2;
+  std::vector<ReportChange> changes;
+  std::optional<ReportRemeasurement> measured;
   std::string reason;
   std::string effect;
   std::string who;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 
 namespace tarsus {
 namespace {
@@ -32,6 +33,19 @@ std::vector<Eigen::Vector2d> outlineOf(const json& sketch) {
     outline.emplace_back(point[0].get<double>(), point[1].get<double>());
   }
   return outline;
+}
+
+/// By probe; 0 where there is none, nothing where nobody wrote it down.
+std::optional<double> deepestOf(const json& fields, const char* name) {
+  const auto ranges = fields.find(name);
+  if (ranges == fields.end() || !ranges->is_array()) {
+    return std::nullopt;
+  }
+  double deepest = 0.0;
+  for (const json& range : *ranges) {
+    deepest = std::max(deepest, range.value("depth_mm", 0.0));
+  }
+  return deepest;
 }
 
 void sketchFromModel(ReportedVisit& visit) {
@@ -81,10 +95,22 @@ VisitSurface surfaceOf(const ReportedVisit& visit) {
           .left_out = {}};
 }
 
-/// This visit against the one before it.
+/// The latest visit that has a model to lay another one on; null where none has.
+const ReportedVisit* lastWithScan(std::span<const ReportedVisit> visits) {
+  const auto found = std::ranges::find_if(visits.rbegin(), visits.rend(), &ReportedVisit::has_scan);
+  return found == visits.rend() ? nullptr : &*found;
+}
+
+/// This visit against the last one before it that has a scan.
 void addPrevious(std::span<const ReportedVisit> visits, ReportContent& content) {
   const ReportedVisit& now = visits.back();
-  const ReportedVisit& before = visits[visits.size() - 2];
+  const ReportedVisit* const earlier = lastWithScan(visits.first(visits.size() - 1));
+  if (!now.has_scan || earlier == nullptr) {
+    content.why_no_comparison =
+        "Without a usable scan of this visit and of an earlier one no surfaces can be compared.";
+    return;
+  }
+  const ReportedVisit& before = *earlier;
   const double days = daysBetween(before, now);
   auto compared =
       compareVisits({surfaceOf(before), before.numbers}, {surfaceOf(now), now.numbers}, days);
@@ -99,7 +125,7 @@ void addPrevious(std::span<const ReportedVisit> visits, ReportContent& content) 
   };
   ReportComparison shown = illustrateComparison(wound(before), wound(now), std::move(*compared));
   shown.later_visit = static_cast<int>(visits.size());
-  shown.earlier_visit = shown.later_visit - 1;
+  shown.earlier_visit = static_cast<int>(earlier - visits.data()) + 1;
   shown.earlier_date = isoTime(before.visit.content.taken_at_ms);
   shown.later_date = isoTime(now.visit.content.taken_at_ms);
   shown.days = days;
@@ -119,7 +145,7 @@ std::optional<RigidTransform> nowFromFirst(std::span<const ReportedVisit> visits
 }
 
 void addFirstBed(std::span<const ReportedVisit> visits, ReportContent& content) {
-  if (!content.section) {
+  if (!content.section || !visits.front().has_scan || !visits.back().has_scan) {
     return;
   }
   const auto now_from_first = nowFromFirst(visits, content);
@@ -142,19 +168,25 @@ Expected<std::vector<ReportedVisit>> reportedVisits(const PatientHistory& histor
   for (const Measurement& measurement : history.measurements) {
     last[measurement.visit_id] = &measurement;
   }
-  if (!last.contains(visit.id)) {
-    return fail(ErrorCode::RecordMissing, "visit " + visit.id + " was not measured");
+  if (visit.content.usable_scan && !last.contains(visit.id)) {
+    return fail(ErrorCode::RecordMissing,
+                "visit " + visit.id +
+                    " was not measured; measure it, or mark it as without a usable scan and type "
+                    "the ruler's values");
   }
   std::vector<ReportedVisit> reported;
   const auto add = [&](const Visit& each) {
-    const Measurement& measurement = *last.at(each.id);
-    reported.push_back(
-        {each, measurementFromJson(measurement.numbers), outlineOf(measurement.sketch), {}});
+    if (!each.content.usable_scan) {
+      reported.push_back({each, nothingMeasured(kNoUsableScan), {}, {}, false});
+    } else if (last.contains(each.id)) {
+      const Measurement& measurement = *last.at(each.id);
+      reported.push_back(
+          {each, measurementFromJson(measurement.numbers), outlineOf(measurement.sketch), {}});
+    }
   };
+  const auto order = [](const Visit& each) { return std::tie(each.content.taken_at_ms, each.id); };
   for (const Visit& each : history.visits) {
-    const bool counts = each.wound_id == visit.wound_id && each.id != visit.id &&
-                        each.content.taken_at_ms < visit.content.taken_at_ms;
-    if (counts && last.contains(each.id)) {
+    if (each.wound_id == visit.wound_id && order(each) < order(visit)) {
       add(each);
     }
   }
@@ -171,13 +203,17 @@ Expected<void> openModels(Store& store,
                           const fs::path& folder,
                           const Job& job) {
   std::vector<ReportedVisit*> shown;
+  const ReportedVisit* const before = lastWithScan(visits.first(visits.size() - 1));
   for (std::size_t i = 0; i < visits.size(); ++i) {
     if (job.stopped()) {
       return fail(ErrorCode::Cancelled);
     }
     job.report("report", static_cast<double>(i) / static_cast<double>(visits.size() + 1));
     ReportedVisit& visit = visits[i];
-    if (i == 0 || i + 2 >= visits.size()) {
+    if (!visit.has_scan) {
+      continue;
+    }
+    if (i == 0 || &visit == before || i + 1 == visits.size()) {
       shown.push_back(&visit);
     } else if (visit.outline_mm.size() < 3) {  // one after the other: only three stay in memory
       if (auto opened = openModel(store, visit, folder); !opened) {
@@ -191,13 +227,16 @@ Expected<void> openModels(Store& store,
 
 void addVisits(std::span<const ReportedVisit> visits, ReportContent& content) {
   for (const ReportedVisit& each : visits) {
+    const json& fields = each.visit.content.fields;
     content.visits.push_back({.number = static_cast<int>(content.visits.size()) + 1,
                               .date = isoTime(each.visit.content.taken_at_ms),
                               .measurement = each.numbers,
                               .outline_mm = each.outline_mm,
                               .tissue = each.model ? each.model->tissue : std::nullopt,
-                              .undermining_mm = std::nullopt,
-                              .tunnel_mm = std::nullopt});
+                              .undermining_mm = deepestOf(fields, "undermining"),
+                              .tunnel_mm = deepestOf(fields, "tunnels"),
+                              .draft = each.visit.state == VisitState::Draft ||
+                                       each.visit.state == VisitState::Returned});
   }
 }
 

@@ -18,10 +18,12 @@ struct ReportedVisit {
   WoundMeasurement numbers;
   std::vector<Eigen::Vector2d> outline_mm;  ///< as one looks at the wound (wound_view.h)
   std::optional<MeasuredModel> model;
+  bool has_scan = true;  ///< false: nothing of it is measurable, its model is never opened
 };
 
-/// The measured visits of one wound up to this one, which is the last.
-/// @errors RecordMissing (this one was not measured)
+/// The visits of one wound up to this one, which is the last: those that were measured, and those
+/// without a usable scan, of which no number of a scan is shown.
+/// @errors RecordMissing (this one has a usable scan that was not measured)
 [[nodiscard]] Expected<std::vector<ReportedVisit>> reportedVisits(const PatientHistory& history,
                                                                   const Visit& visit);
 

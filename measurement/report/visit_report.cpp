@@ -3,6 +3,7 @@
 #include "measurement/records/record_json.h"
 #include "measurement/records/users.h"
 #include "measurement/report/close_view.h"
+#include "measurement/report/photograph.h"
 #include "measurement/report/scan_quality.h"
 #include "measurement/report/visit_models.h"
 #include "measurement/report/visit_rows.h"
@@ -48,9 +49,7 @@ ReportState stateOf(VisitState state) {
   return ReportState::Draft;
 }
 
-ReportRecord recordOf(const PatientHistory& history,
-                      const Visit& visit,
-                      const NameOfUser& name_of) {
+ReportRecord recordOf(const PatientHistory& history, const Visit& visit) {
   const PatientFields& patient = history.patient.fields;
   ReportRecord record;
   record.patient_name = patient.family_name +
@@ -75,7 +74,6 @@ ReportRecord recordOf(const PatientHistory& history,
   }
   record.visit_id = visit.id;
   record.visit_time = isoTime(visit.content.taken_at_ms);
-  record.scanned_by = name_of(visit.signed_by.empty() ? visit.author : visit.signed_by);
   record.report_id = visit.id;
   record.version = static_cast<int>(visit.revision);
   record.state = stateOf(visit.state);
@@ -107,19 +105,26 @@ Expected<void> addOtherWounds(Store& store,
     last[measurement.visit_id] = &measurement;
   }
   for (const Visit& each : history.visits) {
-    if (each.wound_id == visit.wound_id || !sameDay(each, visit) || !last.contains(each.id)) {
+    const bool scanned = each.content.usable_scan;
+    if (each.wound_id == visit.wound_id || !sameDay(each, visit) ||
+        (scanned && !last.contains(each.id))) {
       continue;
     }
-    const ReportRecord place = recordOf(history, each, [](const std::string& id) { return id; });
+    const ReportRecord place = recordOf(history, each);
     OtherWound other;
     other.wound_number = place.wound_number;
     other.side = place.side;
     other.surface = place.surface;
     other.site = place.site;
     other.report_id = each.id;
-    ReportedVisit measured{each, measurementFromJson(last.at(each.id)->numbers), {}, {}};
+    ReportedVisit measured{
+        each,
+        scanned ? measurementFromJson(last.at(each.id)->numbers) : nothingMeasured(kNoUsableScan),
+        {},
+        {},
+        scanned};
     other.measurement = measured.numbers;
-    if (content.other_wounds.size() < kWithPictures) {
+    if (scanned && content.other_wounds.size() < kWithPictures) {
       if (auto opened = openModel(store, measured, folder); !opened) {
         return tl::unexpected(opened.error());
       }
@@ -134,6 +139,53 @@ Expected<void> addOtherWounds(Store& store,
     content.other_wounds.push_back(std::move(other));
   }
   return {};
+}
+
+/// "2 heel".
+std::string woundName(const PatientHistory& history, const std::string& id) {
+  for (const Wound& wound : history.wounds) {
+    if (wound.id == id) {
+      return std::to_string(wound.number) + " " + wound.fields.place;
+    }
+  }
+  return id;
+}
+
+/// What stands in the place of a model's pictures: the photographs kept with the visit.
+Expected<void> addPhotographs(Store& store,
+                              const Visit& visit,
+                              const fs::path& folder,
+                              ReportContent& content) {
+  for (const VisitFile& file : visit.content.files) {
+    if (file.role != "picture") {
+      continue;
+    }
+    const fs::path plain = folder / ("picture" + file.name);
+    if (auto got = store.files().get(store.vault(), file.name, plain); !got) {
+      return tl::unexpected(got.error());
+    }
+    if (auto image = readPhotograph(plain)) {
+      content.photographs.push_back({std::move(*image), file.title});
+    } else {
+      content.left_out_pictures.push_back(file.title);
+    }
+  }
+  return {};
+}
+
+/// The pictures of the visit's model, or the photographs where it has none.
+Expected<ReportContent> picturesOf(Store& store, const ReportedVisit& now, const fs::path& folder) {
+  ReportContent content;
+  if (!now.has_scan) {
+    content.no_scan = true;
+    return addPhotographs(store, now.visit, folder, content).map([&] {
+      return std::move(content);
+    });
+  }
+  content = illustrate(now.model->foot, now.model->wound, now.model->landmarks);
+  content.fit_for_measurement = now.model->fit_for_measurement;
+  content.model_sha256 = now.model->foot.sha256;
+  return content;
 }
 
 json reconstructionOf(const fs::path& folder) {
@@ -168,20 +220,28 @@ Expected<ReportContent> visitReport(Store& store,
   if (auto opened = openModels(store, *visits, folder, job); !opened) {
     return tl::unexpected(opened.error());
   }
+  const auto measurements = measurementsOf(store, visit.id);
+  if (!measurements) {
+    return tl::unexpected(measurements.error());
+  }
   const ReportedVisit& now = visits->back();
-  ReportContent content = illustrate(now.model->foot, now.model->wound, now.model->landmarks);
+  auto pictures = picturesOf(store, now, folder);
+  if (!pictures) {
+    return pictures;
+  }
+  ReportContent& content = *pictures;
   const NameOfUser name_of = namesOf(store);
   content.measurement = now.numbers;
-  content.fit_for_measurement = now.model->fit_for_measurement;
   content.version = options.version;
-  content.model_sha256 = now.model->foot.sha256;
   content.created = isoTime(visit.at_ms);
   content.language = options.language;
   content.form = options.form;
   content.paper = options.paper;
-  content.record = recordOf(*history, visit, name_of);
+  content.record = recordOf(*history, visit);
+  content.record->scanned_by =
+      name_of(measurements->empty() ? versions->front().author : measurements->front().author);
   content.title_line = content.record->patient_name;
-  const json reconstruction = reconstructionOf(folder / visit.id);
+  const json reconstruction = now.has_scan ? reconstructionOf(folder / visit.id) : json();
   addScanQuality(reconstruction, content);
   content.record->invented =
       reconstruction.is_object() &&
@@ -191,10 +251,13 @@ Expected<ReportContent> visitReport(Store& store,
   if (auto added = addOtherWounds(store, *history, visit, folder, content); !added) {
     return tl::unexpected(added.error());
   }
-  if (auto found = addFindings(visit, name_of, content); !found) {
+  if (auto found = addFindings(*versions, name_of, content); !found) {
     return tl::unexpected(found.error());
   }
-  addHistory(*versions, name_of, content);
+  addHistory(*versions,
+             *measurements,
+             {name_of, [&](const std::string& id) { return woundName(*history, id); }},
+             content);
   std::vector<Visit> forms;
   for (const ReportedVisit& each : *visits) {
     forms.push_back(each.visit);
@@ -203,7 +266,7 @@ Expected<ReportContent> visitReport(Store& store,
   if (content.record->state != ReportState::Draft) {
     content.record_sha256 = sha256Of(visit, now.numbers);
   }
-  return content;
+  return pictures;
 }
 
 }  // namespace tarsus

@@ -20,9 +20,11 @@ struct VisitReportOptions {
 
 /// A visit's report from the records: its wound measured anew for the pictures, the wound's
 /// earlier visits as they were measured, the skin of the visit before laid on this one, what was
-/// found, signed and amended. The time on it is the record's: another day, the same bytes.
+/// found, signed and amended. Without a usable scan: what was typed, and the photographs. The time
+/// on it is the record's: another day, the same bytes.
 /// @param folder  for decrypted models; what is written there stays
-/// @errors RecordMissing (no such visit, or it was not measured), those of FileStore::get and
+/// @errors RecordMissing (no such visit, or its usable scan was not measured), those of
+/// FileStore::get and
 ///         measureFiles, Cancelled
 [[nodiscard]] Expected<ReportContent> visitReport(Store& store,
                                                   std::string_view visit_id,

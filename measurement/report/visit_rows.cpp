@@ -6,8 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 namespace tarsus {
 namespace {
@@ -53,39 +54,140 @@ std::optional<int> infectionSigns(const json& fields) {
   return signs + (erythema->get<double>() > kErythema_cm ? 1 : 0);
 }
 
-/// Fields that differ between two versions, in the form's order.
-std::vector<ReportAmendment> amendmentsBetween(const Visit& before,
-                                               const Visit& after,
-                                               const NameOfUser& name_of) {
-  std::set<std::string> names;
-  for (const auto* visit : {&before, &after}) {
-    for (const auto& [name, value] : visit->content.fields.items()) {
-      names.insert(name);
+/// "10-1: 8 mm", the hours and the depth of each.
+std::string rangesText(const json& ranges) {
+  std::string text;
+  for (const json& range : ranges) {
+    const auto number = [&](const char* key) {
+      return range.is_object() && range.contains(key) ? range.at(key).dump() : std::string();
+    };
+    text += (text.empty() ? "" : ", ") + number("from_clock") + "\u2013" + number("to_clock") +
+            ": " + number("depth_mm") + " mm";
+  }
+  return text;
+}
+
+ChangedKind kindOf(const json& value) {
+  return value.is_number()    ? ChangedKind::Number
+         : value.is_boolean() ? ChangedKind::Word
+                              : ChangedKind::Text;
+}
+
+/// The form's fields by name; each item of a score by "name: item".
+std::map<std::string, json> flatFields(const Visit& visit) {
+  std::map<std::string, json> flat;
+  for (const auto& [name, value] : visit.content.fields.items()) {
+    if (name == "scores" && value.is_object()) {
+      for (const auto& [score, items] : value.items()) {
+        for (const auto& [item, answer] : items.items()) {
+          flat[score + ": " + item] = answer;
+        }
+      }
+    } else {
+      flat[name] = value;
     }
   }
-  std::vector<ReportAmendment> amendments;
-  const auto add = [&](const std::string& field, const std::string& from, const std::string& to) {
-    if (from != to) {
-      amendments.push_back({.version = static_cast<int>(after.revision),
-                            .field = field,
-                            .old_value = from,
-                            .new_value = to,
-                            .reason = after.reason,
-                            .effect = {},
-                            .who = name_of(after.author),
-                            .when = isoTime(after.at_ms)});
-    }
-  };
-  for (const std::string& name : names) {
-    add(name, fieldOf(before, name), fieldOf(after, name));
+  return flat;
+}
+
+ReportChange changeOf(const std::string& name, const json& before, const json& after) {
+  ReportChange change{.field = name, .old_value = textOf(before), .new_value = textOf(after)};
+  change.kind = kindOf(after.is_null() ? before : after);
+  const auto fields = visitFields();
+  const auto field = std::ranges::find(fields, name, &VisitField::name);
+  if (field != fields.end() && field->type == FieldType::Words) {
+    change.kind = ChangedKind::Word;
   }
-  add("wound", before.wound_id, after.wound_id);
-  return amendments;
+  if (field != fields.end() && field->type == FieldType::ClockRanges) {
+    change.old_value = rangesText(before);
+    change.new_value = rangesText(after);
+  }
+  return change;
+}
+
+/// Titles of a visit's files of these roles.
+std::string titlesOf(const Visit& visit, bool pictures) {
+  std::string titles;
+  for (const VisitFile& file : visit.content.files) {
+    if ((file.role == "picture") == pictures) {
+      titles += (titles.empty() ? "" : ", ") + (pictures ? file.title : file.role);
+    }
+  }
+  return titles;
+}
+
+/// Whether other files stand behind one title.
+std::vector<std::string> fileNames(const Visit& visit, bool pictures) {
+  std::vector<std::string> names;
+  for (const VisitFile& file : visit.content.files) {
+    if ((file.role == "picture") == pictures) {
+      names.push_back(file.name);
+    }
+  }
+  return names;
+}
+
+/// What differs between two versions.
+/// @param measured_next  the next version is the measurement of the files that this one changes
+std::vector<ReportChange> changesBetween(const Visit& before,
+                                         const Visit& after,
+                                         const HistoryNames& names,
+                                         bool measured_next) {
+  std::vector<ReportChange> changes;
+  if (before.content.taken_at_ms != after.content.taken_at_ms) {
+    changes.push_back({"taken_at",
+                       isoTime(before.content.taken_at_ms),
+                       isoTime(after.content.taken_at_ms),
+                       ChangedKind::Time});
+  }
+  if (before.content.usable_scan != after.content.usable_scan) {
+    changes.push_back(
+        changeOf("usable_scan", before.content.usable_scan, after.content.usable_scan));
+  }
+  if (before.wound_id != after.wound_id) {
+    changes.push_back(
+        {"wound", names.wound(before.wound_id), names.wound(after.wound_id), ChangedKind::Wound});
+  }
+  auto old_fields = flatFields(before);
+  auto new_fields = flatFields(after);
+  for (const auto& [name, value] : new_fields) {
+    old_fields.try_emplace(name, nullptr);
+  }
+  for (const auto& [name, value] : old_fields) {
+    if (new_fields[name] != value) {
+      changes.push_back(changeOf(name, value, new_fields[name]));
+    }
+  }
+  if (fileNames(before, true) != fileNames(after, true)) {
+    changes.push_back({"pictures", titlesOf(before, true), titlesOf(after, true)});
+  }
+  if (!measured_next && fileNames(before, false) != fileNames(after, false)) {
+    changes.push_back({"files", titlesOf(before, false), titlesOf(after, false)});
+  }
+  return changes;
+}
+
+/// Who last changed a field, and when; the first version where nobody did.
+const Visit& lastChangeOf(std::span<const Visit> versions, const std::string& field) {
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < versions.size(); ++i) {
+    at = fieldOf(versions[i - 1], field) != fieldOf(versions[i], field) ? i : at;
+  }
+  return versions[at];
+}
+
+std::optional<double> millimetres(const json& fields, const char* name) {
+  const auto found = fields.find(name);
+  return found != fields.end() && found->is_number() ? std::optional(found->get<double>())
+                                                     : std::nullopt;
 }
 
 }  // namespace
 
-Expected<void> addFindings(const Visit& visit, const NameOfUser& name_of, ReportContent& content) {
+Expected<void> addFindings(std::span<const Visit> versions,
+                           const NameOfUser& name_of,
+                           ReportContent& content) {
+  const Visit& visit = versions.back();
   // In clinical.md's order; what was not entered is said so on the page.
   constexpr std::array kRows{"exudate_amount",
                              "exudate_type",
@@ -112,6 +214,9 @@ Expected<void> addFindings(const Visit& visit, const NameOfUser& name_of, Report
     content.findings.tunnels_recorded = true;
   }
   content.findings.infection_signs = infectionSigns(fields);
+  content.findings.ruler_length_mm = millimetres(fields, "ruler_length_mm");
+  content.findings.ruler_width_mm = millimetres(fields, "ruler_width_mm");
+  content.findings.probe_depth_mm = millimetres(fields, "probe_depth_mm");
   const json scores = fields.value("scores", json::object());
   for (const auto& [score, items] : scores.items()) {
     auto result = scoreFromJson(score, items);
@@ -122,10 +227,10 @@ Expected<void> addFindings(const Visit& visit, const NameOfUser& name_of, Report
   }
   const auto typed = [&](const char* name) {
     const std::string text = fieldOf(visit, name);
+    const Visit& by = lastChangeOf(versions, name);
     return text.empty()
                ? ReportText{}
-               : ReportText{
-                     .text = text, .who = name_of(visit.author), .when = isoTime(visit.at_ms)};
+               : ReportText{.text = text, .who = name_of(by.author), .when = isoTime(by.at_ms)};
   };
   content.notes = typed("notes");
   content.plan = typed("plan");
@@ -133,28 +238,54 @@ Expected<void> addFindings(const Visit& visit, const NameOfUser& name_of, Report
 }
 
 void addHistory(std::span<const Visit> versions,
-                const NameOfUser& name_of,
+                std::span<const Measurement> measurements,
+                const HistoryNames& names,
                 ReportContent& content) {
+  std::size_t measured = 0;  // each version "measure" has its measurement
   for (std::size_t i = 0; i < versions.size(); ++i) {
     const Visit& version = versions[i];
+    const std::string& action = version.last_action;
+    const std::size_t number = action == "measure" ? measured++ : 0;
     const auto sign = [&](SignatureStep step) {
       content.signatures.push_back({.version = static_cast<int>(version.revision),
                                     .step = step,
-                                    .who = name_of(version.author),
+                                    .who = names.user(version.author),
                                     .when = isoTime(version.at_ms),
-                                    .key = {}});
+                                    .key = {},
+                                    .reason = version.reason});
     };
-    if (version.last_action == "sign") {
+    if (action == "sign") {
       sign(SignatureStep::Signed);
-    } else if (version.last_action == "return") {
+    } else if (action == "return") {
       sign(SignatureStep::Returned);
-    } else if (version.last_action == "review") {
+    } else if (action == "review") {
       sign(SignatureStep::Countersigned);
-    } else if (i > 0 && version.state == VisitState::Amended) {
-      sign(SignatureStep::Signed);
-      const auto amendments = amendmentsBetween(versions[i - 1], version, name_of);
-      content.amendments.insert(content.amendments.end(), amendments.begin(), amendments.end());
     }
+    const bool amends = action == "amend" || action == "move" || action == "measure";
+    if (i == 0 || version.state != VisitState::Amended || !amends) {
+      continue;  // a draft, or moved into or out of the trash
+    }
+    const bool measured_next = i + 1 < versions.size() && versions[i + 1].last_action == "measure";
+    ReportAmendment amendment{
+        .version = static_cast<int>(version.revision),
+        .changes = changesBetween(versions[i - 1], version, names, measured_next),
+        .measured = std::nullopt,
+        .reason = version.reason,
+        .effect = {},
+        .who = names.user(version.author),
+        .when = isoTime(version.at_ms)};
+    if (action == "measure" && number < measurements.size()) {
+      amendment.measured = ReportRemeasurement{
+          .before = number > 0
+                        ? std::optional(measurementFromJson(measurements[number - 1].numbers))
+                        : std::nullopt,
+          .now = measurementFromJson(measurements[number].numbers)};
+    }
+    // Measuring puts its files with the visit in a version of its own: one amendment, not two.
+    if (action == "amend" && measured_next && amendment.changes.empty()) {
+      continue;
+    }
+    content.amendments.push_back(std::move(amendment));
   }
 }
 

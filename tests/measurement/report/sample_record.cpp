@@ -149,9 +149,8 @@ void addSignatures(ReportContent& content) {
                          day + "T15:12",
                          "b11402e9000000000000000000000090"}};
   content.amendments = {{2,
-                         "neuropathy",
-                         "lost at 3 of 3 points",
-                         "",
+                         {{"neuropathy", "lost at 3 of 3 points", ""}},
+                         std::nullopt,
                          "reading belonged to the left foot",
                          "SINBAD not computable; no measurement changed",
                          "M. Muster, RN",
