@@ -85,7 +85,7 @@ double rowHeight(const Flow& flow, const MeasurementRow& row) {
   return std::max(8.2,
                   flow.canvas.paragraphHeight(reasonWidth(flow.content, at),
                                               reasonRuns(row, flow.canvas.speech())) +
-                      1.4);
+                      0.7);
 }
 
 /// "1.95-2.53 cm2"; of length and width together half the wider interval.

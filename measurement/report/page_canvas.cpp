@@ -238,25 +238,30 @@ void PageCanvas::textUpwards(const QPointF& middle_mm,
   painter_.restore();
 }
 
-int PageCanvas::fitting(const QString& text, const TextStyle& style, double width_mm) const {
+int PageCanvas::fitting(const QString& text,
+                        const TextStyle& style,
+                        double width_mm,
+                        int guess) const {
   const auto length = static_cast<int>(text.size());
   const auto fits = [&](int letters) { return widthOf(text.left(letters), style) <= width_mm; };
   constexpr int kShort = 40;
   if (length <= 1 || (length <= kShort && fits(length))) {
     return length;
   }
-  // Doubled first, so that never much more than what fits is measured.
+  // In growing steps from what is known to fit, so that never much more than a line is measured.
   int low = 1;
-  int high = 2;
-  while (high < length && fits(high)) {
-    low = high;
-    high *= 2;
-  }
-  if (high >= length) {
-    if (fits(length)) {
+  int high = std::min(guess, length);
+  if (high <= 1 || fits(high)) {
+    low = std::max(low, high);
+    int step = guess > 1 ? 1 : kShort;
+    while (low + step < length && fits(low + step)) {
+      low += step;
+      step *= 2;
+    }
+    if (low + step >= length && fits(length)) {
       return length;
     }
-    high = length;
+    high = std::min(low + step, length);
   }
   while (high - low > 1) {
     const int middle = (low + high) / 2;
@@ -301,7 +306,7 @@ TextLines PageCanvas::linesOf(double width_mm, const std::vector<TextRun>& runs)
       put(rest.left(letters), style);
       result.lines.emplace_back();
       rest = rest.mid(letters);
-      letters = fitting(rest, style, width_mm);
+      letters = fitting(rest, style, width_mm, letters);
       rest_mm = letters < rest.size() ? width_mm : widthOf(rest, style);
     }
     put(rest, style);

@@ -73,7 +73,11 @@ class PageCanvas {
                std::size_t first,
                std::size_t count);
   /// How many letters of the text fit the width: at least one.
-  [[nodiscard]] int fitting(const QString& text, const TextStyle& style, double width_mm) const;
+  /// @param guess  about as many; 0: not known
+  [[nodiscard]] int fitting(const QString& text,
+                            const TextStyle& style,
+                            double width_mm,
+                            int guess = 0) const;
 
   void path(const QPainterPath& path_mm, const QPen& pen_mm, const QBrush& brush = Qt::NoBrush);
   void line(const QPointF& a_mm, const QPointF& b_mm, double width_mm, const QColor& color);

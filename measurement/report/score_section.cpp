@@ -93,7 +93,7 @@ void scoreRow(Flow& flow, const ScoreResult& score) {
 void scoreSection(Flow& flow) {
   PageCanvas& canvas = flow.canvas;
   const Speech& say = canvas.speech();
-  flow.need(26.0);  // the head stays with two rows
+  flow.need(flow.content.scores.empty() ? 10.0 : 26.0);  // the head stays with two rows
   headNote(flow, say(phrase::kScoresNote));
   flow.y += sectionHead(canvas, {page::kLeft, flow.y}, 6, say(phrase::kScores));
   if (flow.content.scores.empty()) {

@@ -43,10 +43,10 @@ TEST(LongTexts, OneLongWordIsPrintedWholeInEveryLanguage) {
   for (const ReportLanguage language : kReportLanguages) {
     ReportContent content = sample::in(language, sample::makeRecord(2));
     content.notes.text = std::string(kLongest, '@');
-    content.plan.text = std::string(kLongest, '#');
+    content.plan.text = std::string(2000, '#');
     const std::string text = printedText(content);
     EXPECT_EQ(printed(text, '@'), kLongest) << static_cast<int>(language);
-    EXPECT_EQ(printed(text, '#'), kLongest) << static_cast<int>(language);
+    EXPECT_EQ(printed(text, '#'), 2000) << static_cast<int>(language);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(Scripts, LettersOfNoFontAreBoxesAndThePageSaysWhich) {
 TEST(Footer, SaysWhenTheReportWasMadeInEveryLanguage) {
   for (const bool is_signed : {true, false}) {
     for (const ReportLanguage language : kReportLanguages) {
-      ReportContent content = sample::in(language, sample::makeRecord(2));
+      ReportContent content = sample::in(language, sample::makeRecord(1));
       content.record->report_id = "0f8fad5b-d9cb-469f-a165-70867728950e";
       content.created = "2026-11-22T10:42:00Z";
       if (!is_signed) {
