@@ -4,14 +4,17 @@
 #include "ui/parts/focus_ring.h"
 #include "ui/parts/header.h"
 #include "ui/parts/status_bar.h"
+#include "ui/parts/step_bar.h"
 #include "ui/parts/words.h"
 #include "ui/screens/gate_screen.h"
 #include "ui/screens/model_screen.h"
 #include "ui/screens/new_patient_screen.h"
 #include "ui/screens/patient_screen.h"
 #include "ui/screens/patients_screen.h"
+#include "ui/screens/visit_screen.h"
 
 #include <QAction>
+#include <QCloseEvent>
 #include <QDateTime>
 #include <QDragEnterEvent>
 #include <QLocale>
@@ -53,14 +56,17 @@ MainWindow::MainWindow(SessionOptions options, QWidget* parent) : QWidget(parent
   makeScreens();
   makeKeys();
   new FocusRing(this);
-  status_->setSaved(tr("All work saved"));
+  saved_ = tr("All work saved");
+  status_->setSaved(saved_);
   connect(header_, &Header::crumbClicked, this, &MainWindow::goToCrumb);
-  connect(header_, &Header::lockClicked, session_, &Session::lock);
+  connect(header_, &Header::lockClicked, this, &MainWindow::lock);
+  connect(header_->steps(), &StepBar::stepChosen, this, [this](int step) { visit_->goTo(step); });
   connect(header_, &Header::openModelClicked, this, [this] { model_->chooseFile(); });
   connect(session_, &Session::stateChanged, this, &MainWindow::follow);
   connect(session_, &Session::saved, this, [this] {
     const QTime now = QDateTime::fromMSecsSinceEpoch(session_->nowMs()).time();
-    status_->setSaved(tr("All work saved, %1").arg(QLocale().toString(now, QLocale::ShortFormat)));
+    saved_ = tr("All work saved, %1").arg(QLocale().toString(now, QLocale::ShortFormat));
+    showFrame();
   });
   bring(gate_);
 }
@@ -74,10 +80,12 @@ void MainWindow::makeScreens() {
   new_patient_ = new NewPatientScreen(*session_);
   patient_ = new PatientScreen(*session_);
   model_ = new ModelScreen;
+  visit_ = new VisitScreen(*session_);
   for (Screen* screen : {static_cast<Screen*>(gate_),
                          static_cast<Screen*>(patients_),
                          static_cast<Screen*>(new_patient_),
                          static_cast<Screen*>(patient_),
+                         static_cast<Screen*>(visit_),
                          static_cast<Screen*>(model_)}) {
     stack_->addWidget(screen);
     connect(screen, &Screen::crumbsChanged, this, &MainWindow::showFrame);
@@ -91,7 +99,7 @@ void MainWindow::makeScreens() {
     patient_->open(id);
     bring(patient_);
   });
-  connect(patient_, &PatientScreen::visitChosen, this, &MainWindow::visitChosen);
+  connect(patient_, &PatientScreen::visitChosen, this, &MainWindow::showVisit);
   const auto to_model = [this] {
     if (currentScreen() != model_) {
       go(model_);
@@ -112,8 +120,17 @@ void MainWindow::makeKeys() {
   addKey(tr("Open a model"), QKeySequence::Open, [this] { model_->chooseFile(); });
   addKey(tr("Back"), QKeySequence(static_cast<int>(Qt::ALT) + Qt::Key_Left), [this] { back(); });
   addKey(tr("Lock"), QKeySequence(static_cast<int>(Qt::CTRL) + Qt::Key_L), [this] {
-    session_->lock();
+    lock();
   });
+  for (int i = 0; i < VisitScreen::kSteps; ++i) {
+    addKey(tr("Step %1").arg(i + 1),
+           QKeySequence(static_cast<int>(Qt::ALT) + Qt::Key_1 + i),
+           [this, i] {
+             if (currentScreen() == visit_) {
+               visit_->goTo(i);
+             }
+           });
+  }
   addKey(tr("Search"), QKeySequence::Find, [this] { currentScreen()->search(); });
   addKey(tr("The filled button"),
          QKeySequence(static_cast<int>(Qt::CTRL) + Qt::Key_Return),
@@ -139,6 +156,9 @@ void MainWindow::go(Screen* screen) {
 }
 
 void MainWindow::bring(Screen* screen) {
+  if (currentScreen() != nullptr && currentScreen() != screen) {
+    currentScreen()->left();
+  }
   stack_->setCurrentWidget(screen);
   showFrame();
   screen->entered();
@@ -150,6 +170,9 @@ void MainWindow::back() {
   }
   Screen* before = history_.back();
   history_.pop_back();
+  if (before == patient_) {
+    patient_->open(patient_->id());  // a visit may have changed it
+  }
   bring(before);
 }
 
@@ -158,8 +181,27 @@ void MainWindow::showPatient(const QString& id) {
   go(patient_);
 }
 
+void MainWindow::showVisit(const QString& visit_id) {
+  visit_->open(visit_id);
+  go(visit_);
+}
+
+void MainWindow::lock() {
+  visit_->save();
+  session_->lock();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  visit_->save();
+  QWidget::closeEvent(event);
+}
+
 void MainWindow::goToCrumb(int index) {
-  if (index == 0 && session_->state() == Session::State::Open) {
+  if (index == 1 && currentScreen() == visit_) {
+    history_ = {patients_};
+    patient_->open(visit_->patientId());
+    bring(patient_);
+  } else if (index == 0 && session_->state() == Session::State::Open) {
     history_.clear();
     bring(patients_);
   } else if (index == 0) {
@@ -172,6 +214,7 @@ void MainWindow::forget() {
   kept_ = nullptr;
   patient_->forget();
   patients_->forget();
+  visit_->close();
 }
 
 void MainWindow::follow() {
@@ -210,6 +253,14 @@ void MainWindow::showFrame() {
   }
   header_->setCrumbs(crumbs);
   status_->setMiddle(screen->status());
+  status_->setSaved(screen->saved().isEmpty() ? saved_ : screen->saved());
+  header_->steps()->setVisible(screen->step() >= 0);
+  if (screen->step() >= 0) {
+    header_->steps()->setStep(screen->step(), screen->reached());
+  }
+  bool trouble = false;
+  const QString note = screen->headerNote(&trouble);
+  header_->setNote(note, trouble);
   const auto& who = session_->who();
   header_->setPerson(who ? QString::fromStdString(who->name) : QString(),
                      who ? roleWord(who->role) : QString());
@@ -225,7 +276,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
   const QString path = firstFile(event->mimeData());
   if (!path.isEmpty()) {
     event->acceptProposedAction();
-    openModel(path);
+    if (!currentScreen()->takeFile(path)) {
+      openModel(path);
+    }
   }
 }
 

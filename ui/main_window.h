@@ -20,6 +20,7 @@ class PatientScreen;
 class PatientsScreen;
 class Screen;
 class StatusBar;
+class VisitScreen;
 
 /// The window: header, one screen at a time, status bar; where one came from, and the keys that
 /// are the same everywhere. While nobody works the gate stands over it all, and the screen under it
@@ -40,15 +41,14 @@ class MainWindow : public QWidget {
   [[nodiscard]] ModelScreen* modelScreen() { return model_; }
   [[nodiscard]] PatientsScreen* patientsScreen() { return patients_; }
   [[nodiscard]] PatientScreen* patientScreen() { return patient_; }
+  [[nodiscard]] VisitScreen* visitScreen() { return visit_; }
   [[nodiscard]] Screen* currentScreen() const;
   void showPatient(const QString& id);
+  void showVisit(const QString& visit_id);
   void back();
 
- signals:
-  /// A draft is to be worked on.
-  void visitChosen(const QString& visit_id);
-
  protected:
+  void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
@@ -62,6 +62,7 @@ class MainWindow : public QWidget {
   void forget();
   void showFrame();
   void goToCrumb(int index);
+  void lock();
 
   Session* session_ = nullptr;
   Header* header_ = nullptr;
@@ -72,6 +73,8 @@ class MainWindow : public QWidget {
   NewPatientScreen* new_patient_ = nullptr;
   PatientScreen* patient_ = nullptr;
   ModelScreen* model_ = nullptr;
+  VisitScreen* visit_ = nullptr;
+  QString saved_;
   Screen* kept_ = nullptr;  ///< under the gate
   std::string kept_for_;    ///< whose it is
   std::vector<Screen*> history_;

@@ -50,7 +50,9 @@ struct LiveScan::State {
 
   void take(RgbdFrame frame);
   void track(const std::stop_token& stop, Tracked& tracked);
-  void look(Tracked& tracked, const RgbdFrame& sensor, double coverage_percent);
+  void look(Tracked& tracked,
+            const std::shared_ptr<const RgbdFrame>& newest,
+            double coverage_percent);
   void survey(const std::stop_token& stop);
   Expected<void> end();
 };
@@ -89,11 +91,14 @@ void LiveScan::State::track(const std::stop_token& stop, Tracked& tracked) {
       waiting.pop_front();
       coverage_percent = view.coverage ? view.coverage->percent : 0.0;
     }
-    look(tracked, *frame, coverage_percent);
+    look(tracked, frame, coverage_percent);
   }
 }
 
-void LiveScan::State::look(Tracked& tracked, const RgbdFrame& sensor, double coverage_percent) {
+void LiveScan::State::look(Tracked& tracked,
+                           const std::shared_ptr<const RgbdFrame>& newest,
+                           double coverage_percent) {
+  const RgbdFrame& sensor = *newest;
   const RgbdFrame frame{.index = sensor.index,
                         .timestamp = sensor.timestamp,
                         .depth = tracked.preparation.depth(sensor.depth),
@@ -104,6 +109,10 @@ void LiveScan::State::look(Tracked& tracked, const RgbdFrame& sensor, double cov
   const std::scoped_lock lock(mutex);
   view.guidance = guidance;
   view.preview = tracked.session.preview();
+  if (live.pose.scan_from_camera) {
+    view.tracked = newest;
+    view.scan_from_camera = live.pose.scan_from_camera;
+  }
   const auto every = static_cast<std::size_t>(
       std::max(1.0, options.coverage_every_s * camera->camera().frames_per_s));
   if (!survey_due && tracked.trajectory.size() % every == 0) {
@@ -127,11 +136,13 @@ void LiveScan::State::survey(const std::stop_token& stop) {
       trajectory = std::exchange(survey_trajectory, {});
     }
     std::shared_ptr<const Coverage> coverage;
+    std::shared_ptr<const PreviewSurface> foot;
     if (preview) {
-      coverage = std::make_shared<const Coverage>(
-          coverageOf(footOf(preview->pieces, trajectory), options.coverage));
+      foot = std::make_shared<const PreviewSurface>(footOf(preview->pieces, trajectory));
+      coverage = std::make_shared<const Coverage>(coverageOf(*foot, options.coverage));
     }
     const std::scoped_lock lock(mutex);
+    view.foot = std::move(foot);
     view.coverage = std::move(coverage);
     survey_due = false;
   }
@@ -225,6 +236,9 @@ Expected<void> LiveScan::begin(const std::filesystem::path& folder) {
     state_->view.failure.reset();
     state_->view.preview = tracked->session.preview();
     state_->view.coverage.reset();
+    state_->view.foot.reset();
+    state_->view.tracked.reset();
+    state_->view.scan_from_camera.reset();
     state_->recorder = std::move(*recorder);
   }
   state_->tracking = std::jthread(

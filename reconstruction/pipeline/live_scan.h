@@ -35,6 +35,11 @@ struct LiveView {
   std::shared_ptr<const RgbdFrame> frame;      ///< the newest, as the sensor gave it; null at first
   std::shared_ptr<const LivePreview> preview;  ///< null before the scan is begun
   std::shared_ptr<const Coverage> coverage;    ///< null at first
+  std::shared_ptr<const PreviewSurface> foot;  ///< what the coverage was computed of
+  /// The last frame whose place is known, and that place; null, empty: none so far. Its colours may
+  /// be laid on the surface, and it is where a lost scan is found again.
+  std::shared_ptr<const RgbdFrame> tracked;
+  std::optional<RigidTransform> scan_from_camera;
 };
 
 /// A camera that is plugged in, by its calibration (see the other knownCamera). A simulated camera

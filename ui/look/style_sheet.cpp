@@ -45,6 +45,26 @@ QPushButton[role="danger"]:hover { background: @danger_weak; }
 QPushButton[role="crumb"] { background: transparent; color: @text2; border: none; padding: 0 6sp; }
 QPushButton[role="crumb"]:hover { color: @accent_text; }
 QPushButton[role="crumb"]:disabled { background: transparent; color: @text; }
+QPushButton[role="earlier"] { background: transparent; color: @text2; border: none; padding: 0 2sp; min-height: 18sp; }
+QPushButton[role="earlier"]:hover { color: @accent_text; }
+QPushButton[role="earlier"]:disabled { background: transparent; color: @text2; }
+QPushButton[role="section"] { background: transparent; color: @text; border: none; text-align: left; padding: 0 12sp; min-height: 46sp; }
+QPushButton[role="section"]:hover { background: @sunk; }
+QPushButton[role="section"]:checked { background: @accent_weak; color: @accent_text; }
+QPushButton[role="stop"] { background: @accent; color: @on_accent; border: @edge_px solid @accent; min-height: 94sp; }
+QPushButton[role="stop"]:hover { background: @accent_text; }
+QPushButton[role="stop"]:disabled { background: @accent_off; color: @on_accent; border-color: @accent_off; }
+QCheckBox[role="tile"] { background: @surface; border: @edge_px solid @edge; border-radius: 6px; padding: 0 14sp; min-height: 46sp; }
+QCheckBox[role="tile"]:hover { background: @sunk; }
+QCheckBox[role="tile"]:checked { background: @accent_weak; }
+QPlainTextEdit { background: @surface; color: @text; border: @edge_px solid @edge; border-radius: 6px; padding: 8sp; selection-background-color: @accent; selection-color: @on_accent; }
+QFrame[role="view"] { background: @view; border: @note_edge solid @line; border-radius: 6px; }
+QFrame[role="tag"] { background: @surface; border: @note_edge solid @line; border-radius: 6px; }
+QFrame[role="dialog"] { background: @surface; border: 1px solid @line; border-radius: 6px; }
+QFrame[state="good"] { background: @accent_weak; border: @note_edge solid @accent; border-radius: 6px; }
+QFrame[state="weak"] { background: @warning_weak; border: @note_edge solid @warning; border-radius: 6px; }
+QFrame[state="lost"] { background: @danger_weak; border: @note_edge solid @danger; border-radius: 6px; }
+QFrame[state="plain"] { background: @surface; border: @note_edge solid @line; border-radius: 6px; }
 QToolButton { background: @surface; color: @text; border: @edge_px solid @edge; border-radius: 6px; padding: 0 12sp; min-height: 38sp; icon-size: 20sp; }
 QToolButton:disabled { color: @text2; background: @sunk; border: 1px solid @line; }
 QToolButton:hover { background: @sunk; }
@@ -117,7 +137,8 @@ Tokens tokensOf(const Theme& t) {
           {QStringLiteral("text2"), t.text_secondary},
           {QStringLiteral("text"), t.text},
           {QStringLiteral("line"), t.line},
-          {QStringLiteral("edge"), t.control_edge}};
+          {QStringLiteral("edge"), t.control_edge},
+          {QStringLiteral("view"), t.view}};
 }
 
 void placeIcons(QString& filled,

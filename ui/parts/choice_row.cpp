@@ -5,6 +5,7 @@
 
 #include <QButtonGroup>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QVariant>
 
 namespace tarsus {
@@ -32,7 +33,15 @@ ChoiceRow::ChoiceRow(const QStringList& texts, QWidget* parent) : QWidget(parent
   }
   row->addStretch();
   connect(group_, &QButtonGroup::idToggled, this, [this](int, bool) { showTicks(); });
-  connect(group_, &QButtonGroup::idClicked, this, &ChoiceRow::chosen);
+  connect(group_, &QButtonGroup::idPressed, this, [this](int) { before_ = current(); });
+  connect(group_, &QButtonGroup::idClicked, this, [this](int index) {
+    if (may_be_none_ && index == before_) {
+      takeBack();
+    } else {
+      emit chosen(index);
+    }
+    before_ = -1;
+  });
 }
 
 void ChoiceRow::setCurrent(int index) {
@@ -51,6 +60,51 @@ void ChoiceRow::setTexts(const QStringList& texts) {
   for (int i = 0; i < texts.size(); ++i) {
     group_->button(i)->setText(texts.at(i));
   }
+}
+
+void ChoiceRow::setFills(const QString& of_what) {
+  may_be_none_ = true;
+  auto* row = static_cast<QHBoxLayout*>(layout());
+  delete row->takeAt(row->count() - 1);
+  const int count = static_cast<int>(group_->buttons().size());
+  for (int i = 0; i < count; ++i) {
+    QAbstractButton* button = group_->button(i);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setAccessibleName(tr("%1, %2, %3 of %4", "field, choice, its number, how many")
+                                  .arg(of_what, button->text())
+                                  .arg(i + 1)
+                                  .arg(count));
+    row->setStretch(i, 1);
+  }
+}
+
+void ChoiceRow::focusCurrent() {
+  QAbstractButton* button = group_->button(qMax(0, current()));
+  if (button != nullptr) {
+    button->setFocus(Qt::TabFocusReason);
+  }
+}
+
+void ChoiceRow::takeBack() {
+  setCurrent(-1);
+  emit chosen(-1);
+}
+
+void ChoiceRow::keyPressEvent(QKeyEvent* event) {
+  const int index = event->key() - Qt::Key_1;
+  const bool plain = (event->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+  if (plain && index >= 0 && index < group_->buttons().size()) {
+    setCurrent(index);
+    group_->button(index)->setFocus(Qt::OtherFocusReason);
+    emit chosen(index);
+    return;
+  }
+  const bool takes_back = event->key() == Qt::Key_Delete || event->key() == Qt::Key_Backspace;
+  if (may_be_none_ && takes_back && current() >= 0) {
+    takeBack();
+    return;
+  }
+  QWidget::keyPressEvent(event);
 }
 
 void ChoiceRow::setTicks(bool ticks) {

@@ -1,6 +1,7 @@
 #include "ui/parts/header.h"
 
 #include "ui/look/icons.h"
+#include "ui/parts/chip.h"
 #include "ui/parts/controls.h"
 #include "ui/parts/icon_label.h"
 #include "ui/parts/mark.h"
@@ -36,6 +37,9 @@ Header::Header(QWidget* parent) : QWidget(parent) {
   steps_->hide();
   row->addWidget(steps_);
   row->addStretch();
+  note_ = new Chip;
+  note_->hide();
+  row->addWidget(note_);
   help_ = makeIconButton(QStringLiteral("help"), tr("Help (F1)"));
   connect(help_, &QToolButton::clicked, this, &Header::helpClicked);
   row->addWidget(help_);
@@ -58,6 +62,15 @@ Header::Header(QWidget* parent) : QWidget(parent) {
   person_->setMenu(menu);
   row->addWidget(person_);
   setPerson({}, {});
+}
+
+void Header::setNote(const QString& text, bool trouble) {
+  note_->setVisible(!text.isEmpty());
+  if (note_->chip().text != text) {
+    note_->setChip({text,
+                    trouble ? ChipTone::Danger : ChipTone::Plain,
+                    trouble ? QStringLiteral("unplugged") : QString()});
+  }
 }
 
 void Header::setHelp(bool there_is_help) { help_->setVisible(there_is_help); }
@@ -99,6 +112,7 @@ void Header::setPerson(const QString& name, const QString& role) {
 
 void Header::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
+  steps_->setShort(width() < Look::px(1100));
   if (shown_crumbs_.size() > 2) {
     showCrumbs();
   }

@@ -9,6 +9,7 @@ class QToolButton;
 
 namespace tarsus {
 
+class Chip;
 class StepBar;
 
 /// The bar on top: mark, where one is (each part before the last goes back to it), the steps of a
@@ -23,6 +24,8 @@ class Header : public QWidget {
   void setPerson(const QString& name, const QString& role);
   /// Shows the way to the help pages.
   void setHelp(bool there_is_help);
+  /// A word beside the help, such as the camera's; empty: none.
+  void setNote(const QString& text, bool trouble);
   [[nodiscard]] StepBar* steps() { return steps_; }
 
  signals:
@@ -40,6 +43,7 @@ class Header : public QWidget {
   QStringList shown_crumbs_;
   QHBoxLayout* crumbs_ = nullptr;
   StepBar* steps_ = nullptr;
+  Chip* note_ = nullptr;
   QToolButton* help_ = nullptr;
   QToolButton* person_ = nullptr;
 };

@@ -32,6 +32,7 @@ class PatientScreen : public Screen {
   [[nodiscard]] QStringList crumbs() const override;
   [[nodiscard]] FootMap* map() { return map_; }
   [[nodiscard]] const PatientSummary& summary() const { return summary_; }
+  [[nodiscard]] const QString& id() const { return id_; }
   void forget();
 
  signals:

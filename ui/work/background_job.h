@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QPointer>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -27,6 +28,7 @@ class BackgroundJob : public QObject {
     cancel();
     thread_ = {};
     running_ = true;
+    busy_ = true;
     const int round = ++round_;
     thread_ = std::jthread([this, round, work = std::move(work), then = std::move(then)](
                                const std::stop_token& stop) {
@@ -35,6 +37,7 @@ class BackgroundJob : public QObject {
             tell(round, QString::fromUtf8(stage.data(), static_cast<int>(stage.size())), fraction);
           }};
       auto result = std::make_shared<Expected<Result>>(attempt<Result>(work, job));
+      busy_ = false;
       QMetaObject::invokeMethod(
           this,
           [this, round, result, then] {
@@ -54,6 +57,8 @@ class BackgroundJob : public QObject {
     }
   }
   [[nodiscard]] bool running() const { return running_; }
+  /// Was cancelled and has not ended yet: to start now would wait for it.
+  [[nodiscard]] bool windingDown() const { return busy_ && !running_; }
 
  signals:
   /// stage: short English name; fraction in [0, 1].
@@ -81,6 +86,7 @@ class BackgroundJob : public QObject {
   }
 
   bool running_ = false;
+  std::atomic<bool> busy_ = false;
   int round_ = 0;
   std::jthread thread_;  ///< last: joined before the rest is gone
 };

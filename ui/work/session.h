@@ -60,6 +60,7 @@ class Session : public QObject {
   /// Who may sign in, and where; known before anybody did.
   [[nodiscard]] const Station& station() const { return station_; }
   [[nodiscard]] const Error& problem() const { return problem_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return options_.folder; }
   [[nodiscard]] std::int64_t nowMs() const { return options_.now_ms(); }
 
   /// Administrator and, for a nurse or a physician, an account of their own; answers with the
