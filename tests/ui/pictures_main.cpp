@@ -6,6 +6,7 @@
 #include "measurement/records/visits.h"
 #include "measurement/records/wounds.h"
 #include "reconstruction/base/temporary_folder.h"
+#include "reconstruction/capture/openni/openni_library.h"
 #include "ui/look/look.h"
 #include "ui/main_window.h"
 #include "ui/parts/foot_map.h"
@@ -13,6 +14,9 @@
 #include "ui/screens/patient_list_model.h"
 #include "ui/screens/patient_screen.h"
 #include "ui/screens/patients_screen.h"
+#include "ui/screens/scan_page.h"
+#include "ui/screens/visit_screen.h"
+#include "ui/work/visit_work.h"
 
 #include <QApplication>
 #include <QDir>
@@ -20,10 +24,12 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
+#include <QToolButton>
 #include <QTranslator>
 
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 
 namespace tarsus {
 namespace {
@@ -197,6 +203,11 @@ class Pictures {
   explicit Pictures(QString out) : out_(std::move(out)) {}
 
   void takeAll() {
+    if (!scan_.isEmpty()) {
+      firstRun(true, false);
+      takeVisit();
+      return;
+    }
     takeEmpty();
     firstRun(true);
     lockAndTake();
@@ -252,7 +263,7 @@ class Pictures {
     named<QLineEdit>(name)->setText(QLatin1String(text));
   }
 
-  void firstRun(bool with_demo) {
+  void firstRun(bool with_demo, bool with_pictures = true) {
     folder_ = std::make_unique<TemporaryFolder>();
     makeWindow(folder_->path());
     type("name", "Sofia Lindqvist");
@@ -260,20 +271,123 @@ class Pictures {
     type("new password", "a long password");
     type("password again", "a long one");
     named<QPushButton>("create")->click();
-    if (with_demo) {
+    if (with_demo && with_pictures) {
       take(QStringLiteral("01b-first-run"));
     }
     type("password again", "a long password");
     named<QAbstractButton>("demo")->setChecked(with_demo);
     named<QPushButton>("create")->click();
     QTest::qWait(1500);
-    if (with_demo) {
+    if (with_demo && with_pictures) {
       take(QStringLiteral("01c-recovery-code"));
     }
     const QString code = named<QLabel>("recovery code")->text().simplified();
     type("code group", qPrintable(code.split(QLatin1Char(' ')).value(3)));
     named<QPushButton>("kept")->click();
     QTest::qWait(500);
+  }
+
+  static bool soon(const std::function<bool()>& holds, int ms = 60000) {
+    return QTest::qWaitFor(holds, ms);
+  }
+  void startVisit() {
+    PatientListModel* model = window_->patientsScreen()->model();
+    soon([&] { return model->rowCount() > 0; });
+    window_->showPatient(model->index(0).data(PatientListModel::IdRole).toString());
+    QTest::qWait(800);
+    named<QPushButton>("start visit")->click();
+    soon([&] { return window_->visitScreen()->work().isOpen(); });
+    QTest::qWait(500);
+  }
+  void choose(const char* field, int index) {
+    named<QWidget>(field)->findChildren<QToolButton*>().at(index)->click();
+  }
+
+  /// The steps of a visit, from a scan folder that plays as the camera.
+  void takeVisit() {
+    startVisit();
+    ScanPage* page = window_->visitScreen()->scanPage();
+    const ScanMoment& moment = page->moment();
+    soon([&] { return moment.camera == ScanMoment::Camera::None; }, 15000);
+    take(QStringLiteral("05e-no-camera"));
+    page->useCamera(simulatedUri(scan_.toStdString()));
+    soon([&] { return moment.camera == ScanMoment::Camera::Live && !moment.color.isNull(); });
+    QTest::qWait(500);
+    take(QStringLiteral("05d-ready"));
+    QTest::keyClick(page, Qt::Key_Space);
+    soon([&] { return moment.guidance.passed_s > 9.0; });
+    take(QStringLiteral("05-scan"));
+    QTest::keyClick(page, Qt::Key_Escape);
+    QTest::qWait(200);
+    take(QStringLiteral("05f-leave-out"));
+    named<QPushButton>("leave out")->click();
+    QTest::qWait(500);
+    page->useCamera(simulatedUri(scan_.toStdString(), "garbage,6,60"));
+    QTest::qWait(300);
+    soon([&] { return moment.camera == ScanMoment::Camera::Live; });
+    QTest::keyClick(page, Qt::Key_Space);
+    soon([&] { return moment.recording && moment.guidance.why_lost.has_value(); });
+    QTest::qWait(300);
+    take(QStringLiteral("05b-scan-lost"));
+    named<QAbstractButton>("start or stop");
+    page->setFocus();
+    QTest::keyClick(page, Qt::Key_Escape);
+    QTest::qWait(300);
+    if (auto* leave = window_->findChild<QPushButton*>(QStringLiteral("leave out"))) {
+      leave->click();
+    }
+    QTest::qWait(500);
+    page->useCamera(simulatedUri(scan_.toStdString(), "unplug,8,200"));
+    QTest::qWait(300);
+    soon([&] { return moment.camera == ScanMoment::Camera::Live; });
+    QTest::keyClick(page, Qt::Key_Space);
+    soon([&] { return moment.camera == ScanMoment::Camera::Gone; });
+    QTest::qWait(300);
+    take(QStringLiteral("11-camera-unplugged"));
+    named<QPushButton>("scan later")->click();
+    QTest::qWait(500);
+    window_->visitScreen()->takeFile(scan_);
+    soon([&] { return window_->visitScreen()->work().build().fraction() > 0.3; });
+    choose("pulse_dorsalis_pedis", 0);
+    choose("pulse_tibialis_posterior", 2);
+    named<QLineEdit>("toe_pressure_mmhg")->setFocus();
+    QTest::keyClicks(named<QLineEdit>("toe_pressure_mmhg"), QStringLiteral("620"));
+    take(QStringLiteral("04-form"));
+    named<QPushButton>("section infection")->click();
+    named<QAbstractButton>("infection_warmth")->click();
+    choose("probe_to_bone", 1);
+    choose("exudate_amount", 1);
+    choose("edge", 1);
+    take(QStringLiteral("04b-form-infection"));
+    named<QPushButton>("section bed")->click();
+    choose("undermining", 1);
+    take(QStringLiteral("04c-form-bed"));
+    named<QPushButton>("section notes")->click();
+    if (auto* cancel = named<QPushButton>("cancel build")) {
+      cancel->click();
+    }
+    take(QStringLiteral("04d-form-stop"));
+    named<QPushButton>("go on building")->click();
+    soon(
+        [&] { return window_->visitScreen()->work().build().state() != ScanBuild::State::Running; },
+        400000);
+    QTest::qWait(2500);
+    take(QStringLiteral("04e-form-ready"));
+    window_->visitScreen()->goTo(VisitScreen::Outline);
+    take(QStringLiteral("06-outline-to-come"));
+    window_->visitScreen()->goTo(VisitScreen::Form);
+    Look::instance().set(ThemeChoice::Light, 200);
+    window_->resize(1280, 800);
+    QTest::qWait(300);
+    window_->grab().save(out_ + QStringLiteral("/04-form-200%1.png").arg(suffix_));
+    window_->visitScreen()->goTo(VisitScreen::Scan);
+    QTest::qWait(1500);
+    window_->grab().save(out_ + QStringLiteral("/05-scan-200%1.png").arg(suffix_));
+    Look::instance().set(ThemeChoice::Light, 100);
+    window_->resize(1440, 900);
+    named<QPushButton>("no scan")->click();
+    QTest::qWait(300);
+    take(QStringLiteral("04f-no-scan"));
   }
 
   void takeEmpty() {
@@ -357,6 +471,7 @@ class Pictures {
 
  public:
   QString suffix_;
+  QString scan_;  ///< then the steps of a visit are taken, and nothing else
 
  private:
   QString out_;
@@ -368,8 +483,8 @@ class Pictures {
 }  // namespace tarsus
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: tarsus-ui-pictures OUT_DIR\n");
+  if (argc != 2 && argc != 3) {
+    std::fprintf(stderr, "usage: tarsus-ui-pictures OUT_DIR [SCAN]\n");
     return 2;
   }
   tarsus::prepareGraphics();
@@ -380,12 +495,14 @@ int main(int argc, char** argv) {
   QDir().mkpath(QString::fromLocal8Bit(argv[1]));
   {
     tarsus::Pictures pictures(QString::fromLocal8Bit(argv[1]));
+    pictures.scan_ = argc == 3 ? QString::fromLocal8Bit(argv[2]) : QString();
     pictures.takeAll();
   }
   tarsus::LongWords longer;
   QApplication::installTranslator(&longer);
   tarsus::Pictures pictures(QString::fromLocal8Bit(argv[1]));
   pictures.suffix_ = QStringLiteral("-long");
+  pictures.scan_ = argc == 3 ? QString::fromLocal8Bit(argv[2]) : QString();
   pictures.takeAll();
   return 0;
 }

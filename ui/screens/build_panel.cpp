@@ -239,7 +239,7 @@ void BuildPanel::show() {
     constexpr int kStep = 5;
     const int rounded =
         left ? kStep * std::max(1, static_cast<int>(std::lround(*left / kStep))) : 0;
-    left_->setText(left ? tr("About %n second(s) left. Keep filling the form.", nullptr, rounded)
+    left_->setText(left ? tr("About %1 seconds left. Keep filling the form.").arg(rounded)
                         : tr("Keep filling the form."));
   }
   const bool stages = running || state == State::Ready;

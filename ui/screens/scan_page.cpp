@@ -671,9 +671,9 @@ QString ScanPage::saved() const {
     return {};
   }
   const bool live = now_.camera == ScanMoment::Camera::Live;
-  return !live    ? tr("Recording stopped, %n frame(s) kept", nullptr, now_.frames)
-         : lost() ? tr("Recording paused, %n frame(s) kept", nullptr, now_.frames)
-                  : tr("Recording, %n frame(s) kept", nullptr, now_.frames);
+  return !live    ? tr("Recording stopped, %1 frames kept").arg(now_.frames)
+         : lost() ? tr("Recording paused, %1 frames kept").arg(now_.frames)
+                  : tr("Recording, %1 frames kept").arg(now_.frames);
 }
 
 QString ScanPage::headerNote(bool* trouble) const {
