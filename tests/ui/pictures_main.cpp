@@ -323,13 +323,12 @@ class Pictures {
     named<QPushButton>("leave out")->click();
     QTest::qWait(500);
     page->useCamera(simulatedUri(scan_.toStdString(), "garbage,6,60"));
-    QTest::qWait(300);
+    soon([&] { return moment.camera != ScanMoment::Camera::Live; });
     soon([&] { return moment.camera == ScanMoment::Camera::Live; });
     QTest::keyClick(page, Qt::Key_Space);
     soon([&] { return moment.recording && moment.guidance.why_lost.has_value(); });
     QTest::qWait(300);
     take(QStringLiteral("05b-scan-lost"));
-    named<QAbstractButton>("start or stop");
     page->setFocus();
     QTest::keyClick(page, Qt::Key_Escape);
     QTest::qWait(300);
@@ -338,7 +337,7 @@ class Pictures {
     }
     QTest::qWait(500);
     page->useCamera(simulatedUri(scan_.toStdString(), "unplug,8,200"));
-    QTest::qWait(300);
+    soon([&] { return moment.camera != ScanMoment::Camera::Live; });
     soon([&] { return moment.camera == ScanMoment::Camera::Live; });
     QTest::keyClick(page, Qt::Key_Space);
     soon([&] { return moment.camera == ScanMoment::Camera::Gone; });

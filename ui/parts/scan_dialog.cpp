@@ -123,7 +123,7 @@ void ScanDialog::place() {
   const int wide = qMin(over_->width() - 32, Look::px(520));
   setFixedWidth(qMax(200, wide));
   layout()->activate();
-  const int tall = qMax(layout()->totalHeightForWidth(width()), layout()->totalSizeHint().height());
+  const int tall = layout()->totalHeightForWidth(width());
   setFixedHeight(tall);
   move((over_->width() - width()) / 2, qMax(0, (over_->height() - tall) / 2));
 }

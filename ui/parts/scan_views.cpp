@@ -384,7 +384,8 @@ void DistanceGauge::paintEvent(QPaintEvent*) {
   painter.setFont(Look::font(TypeRole::Heading));
   painter.drawText(QRectF(left + wide + 19, at - 16, width() - left - wide - 19, 32),
                    Qt::AlignLeft | Qt::AlignVCenter,
-                   tr("%1 cm").arg(std::lround(*mm_ / 10.0)));
+                   *mm_ > kMost_mm + 50.0 ? tr("over %1 cm").arg(std::lround(kMost_mm / 10.0))
+                                          : tr("%1 cm").arg(std::lround(*mm_ / 10.0)));
 }
 
 }  // namespace tarsus

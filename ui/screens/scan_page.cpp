@@ -554,21 +554,23 @@ void ScanPage::ended(int frames, const Error& problem) {
   waiting_ = false;
   const bool was_recording = recording_;
   recording_ = false;
-  if (!problem.detail.empty() || frames == 0) {
-    dialog_->open(
-        {.id = QStringLiteral("failed"),
-         .icon = QStringLiteral("warning"),
-         .title = frames == 0 ? tr("Nothing was recorded") : tr("The recording ended"),
-         .text = sentenceOf(problem.detail.empty() && frames == 0 ? Error{ErrorCode::ScanEmpty, {}}
-                                                                  : problem),
-         .steps = {},
-         .waiting = {},
-         .technician = QString::fromStdString(problem.detail),
-         .first = {tr("Scan again"), [this] { setFocus(); }, "scan anew"},
-         .second = {}});
+  const bool failed = problem.code != ErrorCode::Cancelled;
+  if (failed || frames == 0) {
+    const Error why = failed ? problem : Error{ErrorCode::ScanEmpty, {}};
+    dialog_->open({.id = QStringLiteral("failed"),
+                   .icon = QStringLiteral("warning"),
+                   .title = frames == 0 ? tr("Nothing was recorded") : tr("The recording ended"),
+                   .text = sentenceOf(why),
+                   .steps = {},
+                   .waiting = {},
+                   .technician = QString::fromStdString(why.detail),
+                   .first = {tr("Scan again"), [this] { setFocus(); }, "scan anew"},
+                   .second = {}});
   }
   if (was_recording && frames > 0 && at_end_ == AtEnd::Use) {
-    dialog_->close();
+    if (!failed) {
+      dialog_->close();
+    }
     // Where another visit is open by now, the recording waits in its own visit's folder.
     if (work().isOpen() && take() == take_) {
       const bool in_front = isVisible();

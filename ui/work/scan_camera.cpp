@@ -259,9 +259,12 @@ void ScanCamera::simulate() {
 
 void ScanCamera::setUri(const std::string& uri) {
   worker_->post([w = worker_.get(), uri] {
+    w->end();
     w->live.reset();
     w->uri = uri;
     w->look_at = {};
+    w->moment = {};
+    w->send();
   });
 }
 

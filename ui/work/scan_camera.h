@@ -68,7 +68,8 @@ class ScanCamera : public QObject {
  signals:
   void shown(const tarsus::ScanMoment& moment);
   void begun();
-  /// @param frames  that lie in the folder now
+  /// @param frames   that lie in the folder now
+  /// @param problem  Cancelled: none
   void ended(int frames, const tarsus::Error& problem);
 
  private:
