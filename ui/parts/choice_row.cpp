@@ -6,9 +6,47 @@
 #include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QStyleOptionToolButton>
+#include <QStylePainter>
 #include <QVariant>
 
+#include <utility>
+
 namespace tarsus {
+namespace {
+
+/// Tick and text in the middle together, which a style sheet's button cannot do where it is wide.
+class Segment : public QToolButton {
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QStylePainter painter(this);
+    QStyleOptionToolButton option;
+    initStyleOption(&option);
+    const QString words = std::exchange(option.text, {});
+    const bool ticked = !std::exchange(option.icon, {}).isNull();
+    painter.drawComplexControl(QStyle::CC_ToolButton, option);
+    const Theme& theme = Look::theme();
+    const QColor ink = !isEnabled()  ? theme.text_secondary
+                       : isChecked() ? theme.accent_text
+                                     : theme.text;
+    const int side = ticked ? Look::px(16) : 0;
+    const int gap = ticked ? Look::px(8) : 0;
+    const int room = width() - side - gap - Look::px(8);
+    const QString shown = fontMetrics().elidedText(words, Qt::ElideRight, room);
+    const int left = (width() - side - gap - fontMetrics().horizontalAdvance(shown)) / 2;
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (ticked) {
+      drawIcon(
+          painter, QStringLiteral("check"), QRectF(left, (height() - side) / 2.0, side, side), ink);
+    }
+    painter.setPen(ink);
+    painter.drawText(QRect(left + side + gap, 0, width() - left - side - gap, height()),
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     shown);
+  }
+};
+
+}  // namespace
 
 ChoiceRow::ChoiceRow(const QStringList& texts, QWidget* parent) : QWidget(parent) {
   auto* row = new QHBoxLayout(this);
@@ -16,7 +54,7 @@ ChoiceRow::ChoiceRow(const QStringList& texts, QWidget* parent) : QWidget(parent
   row->setSpacing(0);
   group_ = new QButtonGroup(this);
   for (int i = 0; i < texts.size(); ++i) {
-    auto* button = new QToolButton;
+    auto* button = new Segment;
     button->setText(texts.at(i));
     button->setCheckable(true);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -47,7 +47,20 @@ void FocusRing::place() {
     return;
   }
   const QRect box(target_->mapTo(parentWidget(), QPoint(0, 0)), target_->size());
-  setGeometry(box.adjusted(-kReach, -kReach, kReach, kReach));
+  const QRect around = box.adjusted(-kReach, -kReach, kReach, kReach);
+  QRect seen = parentWidget()->rect();  // a control may be scrolled out of its place
+  for (QWidget* each = target_->parentWidget(); each != nullptr && each != parentWidget();
+       each = each->parentWidget()) {
+    seen &= QRect(each->mapTo(parentWidget(), QPoint(0, 0)), each->size())
+                .adjusted(-kReach, -kReach, kReach, kReach);
+  }
+  seen &= around;
+  if (seen.isEmpty()) {
+    hide();
+    return;
+  }
+  setGeometry(around);
+  setMask(seen.translated(-around.topLeft()));
   raise();
   show();
 }

@@ -330,7 +330,7 @@ void BuildPanel::showPicture() {
     return;
   }
   pictured_ = model.get();
-  const QSize size(Look::px(330), Look::px(132));
+  const QSize size(std::max(200, picture_->width()), Look::px(132));
   auto* job = new BackgroundJob(picture_);
   job->start<QImage>(
       [model, size](const Job&) -> Expected<QImage> {

@@ -370,9 +370,13 @@ FormField::FormField(const VisitField& field) : field_(field), name_(qString(fie
   earlier_ = makeButton({}, QStringLiteral("earlier"));
   earlier_->setObjectName(name_ + QStringLiteral(" earlier"));
   Look::setType(earlier_, TypeRole::Small);
-  QFont italic = earlier_->font();
-  italic.setItalic(true);
-  earlier_->setFont(italic);
+  const auto lean = [this] {
+    QFont italic = Look::font(TypeRole::Small);
+    italic.setItalic(true);
+    earlier_->setFont(italic);
+  };
+  lean();
+  connect(&Look::instance(), &Look::changed, this, lean);
   earlier_->hide();
   connect(earlier_, &QPushButton::clicked, this, [this] {
     setValue(earlier_value_);

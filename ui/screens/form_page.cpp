@@ -1,6 +1,7 @@
 #include "ui/screens/form_page.h"
 
 #include "ui/look/icons.h"
+#include "ui/parts/choice_row.h"
 #include "ui/parts/controls.h"
 #include "ui/parts/words.h"
 #include "ui/screens/build_panel.h"
@@ -34,9 +35,18 @@ const VisitField& fieldNamed(std::string_view name) {
 }  // namespace
 
 FormPage::FormPage(VisitWork& work) : VisitPage(work) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(24, 24, 24, 24);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(24, 24, 24, 24);
+  column->setSpacing(16);
+  tabs_ = new ChoiceRow({tr("Form"), tr("Model")});
+  tabs_->setTicks(false);
+  tabs_->setCurrent(0);
+  tabs_->hide();
+  connect(tabs_, &ChoiceRow::chosen, this, &FormPage::arrange);
+  column->addWidget(tabs_);
+  auto* row = new QHBoxLayout;
   row->setSpacing(24);
+  column->addLayout(row, 1);
   QWidget* form = makeForm();  // before the list of its sections
   row->addWidget(makeNavigation());
   row->addWidget(form, 1);
@@ -96,7 +106,7 @@ QWidget* FormPage::makeNavigation() {
 
 QWidget* FormPage::makeForm() {
   QFrame* card = makeFrame(QStringLiteral("card"));
-  card->setMaximumWidth(Look::px(kWidest));
+  card_ = card;
   auto* outer = new QVBoxLayout(card);
   outer->setContentsMargins(0, 0, 4, 0);
   auto* inside = new QWidget;
@@ -286,7 +296,11 @@ void FormPage::goToSection(std::size_t index) {
 }
 
 void FormPage::followScroll() {
-  const int top = scroll_->verticalScrollBar()->value() + scroll_->viewport()->height() / 4;
+  const QScrollBar* bar = scroll_->verticalScrollBar();
+  const int top = bar->value() + scroll_->viewport()->height() / 4;
+  if (bar->value() == bar->maximum() && sections_[current_].box->y() > top) {
+    return;  // the last ones cannot come to the top
+  }
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     if (sections_[i].box->y() <= top) {
       current_ = i;
@@ -320,9 +334,25 @@ void FormPage::primary() { build_->pressContinue(); }
 
 void FormPage::resizeEvent(QResizeEvent* event) {
   VisitPage::resizeEvent(event);
+  arrange();
+}
+
+void FormPage::arrange() {
   const bool narrow = width() < Look::px(1300);
-  navigation_->setFixedWidth(Look::px(narrow ? 184 : 216));
-  build_->setFixedWidth(Look::px(narrow ? 320 : 376));
+  tight_ = width() < Look::px(1000);  // large text
+  const bool model = tight_ && tabs_->current() == 1;
+  tabs_->setVisible(tight_);
+  navigation_->setVisible(!tight_);
+  card_->setVisible(!model);
+  build_->setVisible(!tight_ || model);
+  card_->setMaximumWidth(tight_ ? QWIDGETSIZE_MAX : Look::px(kWidest));
+  navigation_->setFixedWidth(Look::px(narrow ? 206 : 216));
+  if (tight_) {
+    build_->setMinimumWidth(0);
+    build_->setMaximumWidth(QWIDGETSIZE_MAX);
+  } else {
+    build_->setFixedWidth(Look::px(narrow ? 320 : 376));
+  }
 }
 
 }  // namespace tarsus

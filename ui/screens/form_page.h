@@ -15,6 +15,7 @@ class QVBoxLayout;
 namespace tarsus {
 
 class BuildPanel;
+class ChoiceRow;
 class FormField;
 struct FormSection;
 
@@ -50,10 +51,14 @@ class FormPage : public VisitPage {
   void showSigns();
   void goToSection(std::size_t index);
   void followScroll();
+  void arrange();
   [[nodiscard]] bool isDone(const FormSection& section) const;
   [[nodiscard]] FormField* field(std::string_view name) const;
 
   QScrollArea* scroll_ = nullptr;
+  ChoiceRow* tabs_ = nullptr;  ///< where there is room for one thing only
+  QWidget* card_ = nullptr;
+  bool tight_ = false;
   QWidget* navigation_ = nullptr;
   BuildPanel* build_ = nullptr;
   QLabel* done_ = nullptr;

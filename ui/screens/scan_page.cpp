@@ -196,7 +196,9 @@ QWidget* ScanPage::makeRight() {
   state_text_ = makeLabel({}, TypeRole::Base);
   card->addWidget(state_text_);
   column->addWidget(state_);
-  column->addWidget(makeDistance(), 1);
+  distance_ = makeDistance();
+  column->addWidget(distance_, 1);
+  column->addStretch();
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   retake_ = makeButton(tr("Retake"), {}, "undo");
@@ -304,8 +306,12 @@ void ScanPage::offerKept() {
                              emit stepWanted(VisitScreen::Form);
                            },
                            "use kept"},
-                 .second = {tr("Scan again"), [this] { setFocus(); }, "scan anew"},
-                 .second_is_safe = true});
+                 .second = {tr("Scan again"),
+                            [this] {
+                              removeSoon(take());
+                              setFocus();
+                            },
+                            "scan anew"}});
 }
 
 bool ScanPage::lost() const { return recording_ && now_.guidance.why_lost.has_value(); }
@@ -583,8 +589,7 @@ void ScanPage::ended(int frames, const Error& problem) {
     foot_->setFoot({});
     begin();
   } else if (at_end_ == AtEnd::Drop) {
-    std::error_code ignored;
-    fs::rename(take_, fs::path(take_.string() + "-dropped"), ignored);
+    removeSoon(take_);
     foot_->setFoot({});
   }
   at_end_ = AtEnd::Use;
@@ -662,6 +667,9 @@ void ScanPage::keyPressEvent(QKeyEvent* event) {
 void ScanPage::resizeEvent(QResizeEvent* event) {
   VisitPage::resizeEvent(event);
   const bool narrow = width() < Look::px(1360);
+  const bool tight = width() < Look::px(1000);  // large text: the orders tell the distance too
+  left_->setVisible(!tight);
+  distance_->setVisible(!tight);
   left_->setFixedWidth(Look::px(narrow ? 320 : 384));
   right_->setFixedWidth(Look::px(narrow ? 280 : 312));
 }

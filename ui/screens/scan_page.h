@@ -76,6 +76,7 @@ class ScanPage : public VisitPage {
   std::filesystem::path take_;
   QWidget* left_ = nullptr;
   QWidget* right_ = nullptr;
+  QWidget* distance_ = nullptr;
   LivePicture* color_ = nullptr;
   LivePicture* depth_ = nullptr;
   GrowingView* foot_ = nullptr;

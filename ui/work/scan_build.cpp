@@ -6,11 +6,13 @@
 #include "reconstruction/scene/ply.h"
 
 #include <QCoreApplication>
+#include <QThreadPool>
 #include <QTimer>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 
 namespace tarsus {
@@ -145,6 +147,18 @@ fs::path scanIn(const fs::path& work) {
     }
   }
   return {};
+}
+
+void removeSoon(const fs::path& path) {
+  static std::atomic<int> count = 0;
+  const fs::path aside = path.string() + ".old" + std::to_string(++count);
+  std::error_code ignored;
+  fs::remove_all(aside, ignored);  // of a day before, rarely there
+  fs::rename(path, aside, ignored);
+  QThreadPool::globalInstance()->start([aside] {
+    std::error_code none;
+    fs::remove_all(aside, none);
+  });
 }
 
 Expected<void> bringScan(const fs::path& from, const fs::path& work, const Job& job) {

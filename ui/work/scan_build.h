@@ -40,6 +40,9 @@ struct BuiltModel {
 [[nodiscard]] Expected<void> bringScan(const std::filesystem::path& from,
                                        const std::filesystem::path& work,
                                        const Job& job);
+/// Takes a file or folder out of the way at once and removes it beside the window: hundreds of
+/// pictures take their time.
+void removeSoon(const std::filesystem::path& path);
 /// The visit's scan; empty: there is none.
 [[nodiscard]] std::filesystem::path scanIn(const std::filesystem::path& work);
 

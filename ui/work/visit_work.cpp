@@ -206,13 +206,8 @@ fs::path VisitWork::folder() const {
 void VisitWork::takeRecording(const fs::path& recording) {
   build_.clear();
   const fs::path own = folder();
-  std::error_code ignored;
-  // Aside first: to remove hundreds of pictures takes its time, and a name none.
-  const fs::path old = own / "old";
-  fs::remove_all(old, ignored);
-  fs::create_directories(old, ignored);
   for (const char* name : {"scan", "scan.oni", "scan.oni.json", "model"}) {
-    fs::rename(own / name, old / name, ignored);
+    removeSoon(own / name);
   }
   std::error_code error;
   fs::rename(recording, own / "scan", error);
