@@ -151,8 +151,7 @@ QWidget* BuildPanel::makeQuality() {
   column->setContentsMargins(16, 16, 16, 16);
   column->setSpacing(10);
   auto* top = new QHBoxLayout;
-  top->addWidget(makeLine(tr("Scan quality"), TypeRole::Heading));
-  top->addStretch();
+  top->addWidget(makeLabel(tr("Scan quality"), TypeRole::Heading), 1);
   verdict_ = new Chip;
   verdict_->setObjectName(QStringLiteral("verdict"));
   top->addWidget(verdict_);

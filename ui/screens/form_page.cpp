@@ -346,7 +346,11 @@ void FormPage::arrange() {
   card_->setVisible(!model);
   build_->setVisible(!tight_ || model);
   card_->setMaximumWidth(tight_ ? QWIDGETSIZE_MAX : Look::px(kWidest));
-  navigation_->setFixedWidth(Look::px(narrow ? 206 : 216));
+  int names = Look::px(narrow ? 184 : 216);
+  for (const Section& section : sections_) {
+    names = std::max(names, section.button->sizeHint().width());
+  }
+  navigation_->setFixedWidth(names);
   if (tight_) {
     build_->setMinimumWidth(0);
     build_->setMaximumWidth(QWIDGETSIZE_MAX);
