@@ -130,6 +130,8 @@ void ScanCamera::Worker::open() {
   LiveScanOptions options;
   options.today = QDate::currentDate().toString(Qt::ISODate).toStdString();
   options.coverage_every_s = 1.0;
+  // Beside the records, where `calibrate` puts them; own is the work folder within the records.
+  options.calibration = own.parent_path().parent_path() / "calibration";
   auto opened = LiveScan::open(found, options);
   if (!opened) {
     moment.camera = ScanMoment::Camera::Failed;
