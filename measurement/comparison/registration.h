@@ -30,7 +30,7 @@ struct RegistrationOptions {
   double most_rms_mm = 0.7;
   double least_inlier_fraction = 0.6;
   double inlier_mm = 2.0;         ///< farther from the other surface is no inlier; ours
-  double most_slide_mm = 1.25;    ///< 95 % of what the pose may be wrong at the wound's edge; ours
+  double most_slide_mm = 1.0;     ///< 95 % of what the pose may be wrong at the wound's edge; ours
   double least_cost_ratio = 1.5;  ///< another pose must fit this much worse; ours
 };
 
