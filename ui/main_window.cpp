@@ -119,9 +119,7 @@ void MainWindow::addKey(const QString& name, const QKeySequence& key, std::funct
 void MainWindow::makeKeys() {
   addKey(tr("Open a model"), QKeySequence::Open, [this] { model_->chooseFile(); });
   addKey(tr("Back"), QKeySequence(static_cast<int>(Qt::ALT) + Qt::Key_Left), [this] { back(); });
-  addKey(tr("Lock"), QKeySequence(static_cast<int>(Qt::CTRL) + Qt::Key_L), [this] {
-    lock();
-  });
+  addKey(tr("Lock"), QKeySequence(static_cast<int>(Qt::CTRL) + Qt::Key_L), [this] { lock(); });
   for (int i = 0; i < VisitScreen::kSteps; ++i) {
     addKey(tr("Step %1").arg(i + 1),
            QKeySequence(static_cast<int>(Qt::ALT) + Qt::Key_1 + i),

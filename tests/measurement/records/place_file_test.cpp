@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(PlaceFile, WithoutItTheRecordsLieBesideIt) {
-  EXPECT_EQ(must(readStorePlace("/home/nina/data/records.json")).folder, "/home/nina/data/records");
+  EXPECT_EQ(must(readStorePlace("/srv/data/records.json")).folder, "/srv/data/records");
 }
 
 TEST(PlaceFile, FolderAndServerComeBackAsTheyWereWritten) {
