@@ -174,6 +174,32 @@ class WoundMeasurer {
 
   /// Values under one change of the outline or of the skin; nothing where that is not possible.
   [[nodiscard]] std::optional<Quantities> withOutline(double shift_mm) const {
+    const auto once = withOutlineAlong(shift_mm);
+    if (!once) {
+      return std::nullopt;
+    }
+    // Another observer's outline lies beside this one as one looks at the wound: on its steep wall
+    // a step along the surface goes down more than aside, so that it is lengthened to go as far.
+    constexpr double kMostLengthened = 3.0;
+    const double aside_mm =
+        std::abs(once->at("opening_area_mm2") - values_.at("opening_area_mm2")) / borderOnSkin_mm();
+    const double factor = std::min(kMostLengthened, std::abs(shift_mm) / std::max(aside_mm, 1e-6));
+    const auto again = factor > 1.0 ? withOutlineAlong(factor * shift_mm) : std::nullopt;
+    return again ? again : once;
+  }
+
+  [[nodiscard]] double borderOnSkin_mm() const {
+    double length_mm = 0.0;
+    for (std::size_t i = 0; i < bed_.curve.size(); ++i) {
+      const int from = bed_.curve[i];
+      const int to = bed_.curve[(i + 1) % bed_.curve.size()];
+      length_mm += (depths_.feet[to].position_mm - depths_.feet[from].position_mm).norm();
+    }
+    return length_mm;
+  }
+
+  /// @param shift_mm  along the surface, outward
+  [[nodiscard]] std::optional<Quantities> withOutlineAlong(double shift_mm) const {
     const auto cut = movedOutline(site_, shift_mm);
     if (!cut) {
       return std::nullopt;
