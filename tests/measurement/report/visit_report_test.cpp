@@ -205,8 +205,9 @@ std::string pictureBytes(const std::filesystem::path& path, const char* format) 
 TEST_P(VisitReport, AVisitWithoutAUsableScanPrintsWhatWasTyped) {
   const std::string first = addDraft(sampleVisit(*now_ms_, "seen"));
   measure(*store_, first, "outline.json");
+  *now_ms_ += 7 * kDay_ms;
   VisitContent typed{
-      .taken_at_ms = *now_ms_ + 7 * kDay_ms,
+      .taken_at_ms = *now_ms_,
       .usable_scan = false,
       .fields = {{"ruler_length_mm", 22.0}, {"ruler_width_mm", 15.5}, {"probe_depth_mm", 4.0}}};
   typed.files = {kept("foot.jpg", pictureBytes(folder_.path() / "a.jpg", "JPG")),
@@ -239,7 +240,8 @@ TEST_P(VisitReport, AVisitWithoutAUsableScanPrintsWhatWasTyped) {
   expectText(printed(form), {"No usable scan.", "page 1/1"});
 
   // The next visit's history holds it, as what cannot be measured, and is laid on the first.
-  const std::string third = addDraft(sampleVisit(*now_ms_ + 14 * kDay_ms, "seen"));
+  *now_ms_ += 7 * kDay_ms;
+  const std::string third = addDraft(sampleVisit(*now_ms_, "seen"));
   measure(*store_, third, "outline.json");
   const ReportContent later = report(third);
   ASSERT_EQ(later.visits.size(), 3U);
